@@ -90,7 +90,7 @@ template <bool gravity, bool wraps = true, class RestitutionOf, class Rub = NoRu
     rub(r, change);
     if (begin_now) [[unlikely]]
       part_disks(r, share, 0.0, p, q);
-    outcome = {reduced_mass * change, 0.0, true, false, e < 1.0};
+    outcome = {.virial = reduced_mass * change, .happened = true, .lost_energy = e < 1.0};
   }
   if constexpr (wraps) {
     wrap_into(p, box);
@@ -116,7 +116,7 @@ template <class RestitutionOf, class Rub>
     const double change = collide(r, shares(mass_p, mass_q), e, p.vx, p.vy, q.vx, q.vy);
     rub(r, change);
     if (begin_now) part_disks(r, shares(mass_p, mass_q), jump, p, q);
-    outcome = {reduced_mass(mass_p, mass_q) * change, 0.0, true, false, e < 1.0};
+    outcome = {.virial = reduced_mass(mass_p, mass_q) * change, .happened = true, .lost_energy = e < 1.0};
     see_shear(outcome, r, rows_to_nearest(q.y - p.y, box), mass_q * (q.vx - before), rough, box.shear);
   }
   outcome.energy += wrap_with_work(p, mass_p, box);
@@ -145,7 +145,7 @@ inline PairRestitution restitution_of_pair(const ExactRules& rules, double s, Di
 // Disks a and b, the one with the smaller id first, collide at time s; their new segments start there.
 inline Impact collide_at(const ExactRules& rules, double s, ExactDisk& a, ExactDisk& b) {
   const Shares share = rules.common_mass ? equal_shares : shares(a.mass, b.mass);
-  PairRestitution pair{rules.restitution, false, false};
+  PairRestitution pair{.value = rules.restitution, .elastic = false, .held = false};
   const auto restitution = [&](const Relative& r) {
     if (!rules.constant) pair = restitution_of_pair(rules, s, a.id, b.id, std::max(a.last_contact, b.last_contact), r);
     return pair.value;
@@ -178,7 +178,7 @@ inline constexpr double least_hop = 0.25;
 inline Impact meet_thermal_side(const ExactRules& rules, double s, Side side, ExactDisk& a) {
   PathSegment& p = a.path;
   const double before = outward_speed(side, p.vx, p.vy);
-  Impact outcome{0.0, 0.0, true, false};
+  Impact outcome{.happened = true};
   if (before > 0.0) {
     const double temperature = rules.box.temperature(side);
     const ThermalReflection reflected =
@@ -203,7 +203,7 @@ inline Impact meet_moving_side(const ExactRules& rules, double s, Side side, Exa
   const double e = elastic ? 1.0 : rules.box.restitution(side);
   const double approach = approach_speed(side, p.vx, p.vy, place);
   const bool loses = rules.box.restitution(side) < 1.0 || rubs_away(rules, Touching::wall);
-  Impact outcome{0.0, 0.0, true, elastic && loses, !elastic && loses};
+  Impact outcome{.happened = true, .inaccurate = elastic && loses, .lost_energy = !elastic && loses};
   const double leaving = approach > 0.0 ? e * approach : -approach;
   const double hop =
       rules.tc() ? least_hop * approach_acceleration(side, rules.gravity, place) * rules.contact_time : 0.0;
@@ -243,8 +243,10 @@ inline Impact meet_side_at(const ExactRules& rules, double s, Side side, ExactDi
     }
     if (rules.tc()) hop_off(side, least_hop * outward_acceleration(side, rules.gravity) * rules.contact_time, p);
     const bool loses = rules.box.restitution(side) < 1.0 || rubs_away(rules, Touching::wall);
-    outcome = {a.mass * std::max(0.0, before - outward_speed(side, p.vx, p.vy)), 0.0, true, elastic && loses,
-               !elastic && loses};
+    outcome = {.virial = a.mass * std::max(0.0, before - outward_speed(side, p.vx, p.vy)),
+               .happened = true,
+               .inaccurate = elastic && loses,
+               .lost_energy = !elastic && loses};
     a.last_contact = s;
   }
   if (rules.box.shear.acts()) {
@@ -285,7 +287,10 @@ inline Impact bounce_off_obstacle(const ExactRules& rules, double s, const Obsta
     if (!elastic && approach < 0.0) {
       rub_against(rules, {apart.x / distance, apart.y / distance}, o.touching(), change / distance, a);
     }
-    outcome = {a.mass * (change / distance), 0.0, bounced, elastic && loses, bounced && !elastic && loses};
+    outcome = {.virial = a.mass * (change / distance),
+               .happened = bounced,
+               .inaccurate = elastic && loses,
+               .lost_energy = bounced && !elastic && loses};
     if (bounced) a.last_contact = s;
   }
   return outcome;

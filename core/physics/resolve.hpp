@@ -105,7 +105,7 @@ Impact resolve_pair(const View& d, const StepRules& rules, std::uint32_t i, std:
     const double before = d.vx[j];
     const double change = collide(r, share, e, d.vx[i], d.vy[i], d.vx[j], d.vy[j]);
     rub_pair(d, rules, i, j, r, share, change);
-    impact = {reduced_mass(d.mass(i), d.mass(j)) * change, 0.0, true, !inside_step};
+    impact = {.virial = reduced_mass(d.mass(i), d.mass(j)) * change, .happened = true, .inaccurate = !inside_step};
     see_shear_of(d, rules, i, j, r, before, impact);
   }
   if (inside_step) {
@@ -147,7 +147,7 @@ Impact reflect_at_side(const View& d, const StepRules& rules, std::uint32_t i, S
                              reflected.deviate, d.spin[i]);
     }
   }
-  return {d.mass(i) * (before - outward_speed(side, d.vx[i], d.vy[i])), heat, true};
+  return {.virial = d.mass(i) * (before - outward_speed(side, d.vx[i], d.vy[i])), .energy = heat, .happened = true};
 }
 
 // A disk that reaches beyond a thermal side and moves into it, at speed `speed`: reflected once, at its contact, or at
@@ -198,7 +198,7 @@ Impact resolve_moving_wall(const View& d, const StepRules& rules, std::uint32_t 
     bounce_off(speed(), away);
   }
   const double impulse = d.mass(i) * change;
-  return {impulse, impulse * place.speed, change > 0.0, late};
+  return {.virial = impulse, .energy = impulse * place.speed, .happened = change > 0.0, .inaccurate = late};
 }
 
 // Likewise for a disk and a wall (F11: position and velocity are both put right). A disk that gravity brings back to
@@ -225,7 +225,7 @@ Impact resolve_wall(const View& d, const StepRules& rules, std::uint32_t i, Side
     drift_one(d, i, ago, rules.gravity);
   }
   if (beyond() >= 0.0 && speed() > 0.0) change += bounce_at_wall(d, rules, i, side);
-  return {d.mass(i) * change, 0.0, change > 0.0, late};
+  return {.virial = d.mass(i) * change, .happened = change > 0.0, .inaccurate = late};
 }
 
 // Gives disk i the speed `change` more away from an obstacle.
@@ -274,7 +274,7 @@ Impact resolve_resting_obstacle(const View& d, const StepRules& rules, std::uint
     gap = gap_now();
   }
   if (gap.beyond >= 0.0 && speed(gap) > 0.0) change += bounce_at_obstacle(d, rules, i, o);
-  return {d.mass(i) * change, 0.0, change > 0.0, late};
+  return {.virial = d.mass(i) * change, .happened = change > 0.0, .inaccurate = late};
 }
 
 // Likewise for an inner wall that moves, in its frame: there it rests where it is at the end of the step.

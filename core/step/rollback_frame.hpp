@@ -31,7 +31,7 @@ Impact bounce_pair(const View& d, const StepRules& rules, std::uint32_t i, std::
   const Shares share = shares_of(d, i, j);
   const double before = d.vx[j];
   const double change = collide(r, share, e, d.vx[i], d.vy[i], d.vx[j], d.vy[j]);
-  Impact impact{reduced_mass(d.mass(i), d.mass(j)) * change, 0.0, true};
+  Impact impact{.virial = reduced_mass(d.mass(i), d.mass(j)) * change, .happened = true};
   rub_pair(d, rules, i, j, r, share, change);
   see_shear_of(d, rules, i, j, r, before, impact);
   return impact;

@@ -48,9 +48,9 @@ inline constexpr double most_waiting = 0.05;
 
 // What a step (or a part of it) did that no exact motion does.
 struct StepFigures {
-  Overlap left;                   // the deepest of two disks after pushing apart, or of disks that part
-  Overlap before;                 // that two disks in contact had when the step began
-  Overlap wall;                   // of a disk and a wall, after pushing
+  Overlap left{};                 // the deepest of two disks after pushing apart, or of disks that part
+  Overlap before{};               // that two disks in contact had when the step began
+  Overlap wall{};                 // of a disk and a wall, after pushing
   Count inaccurate = 0;           // collisions, see largest_inaccurate_share
   Count inaccurate_at_walls = 0;  // time stepping: bounces off walls and obstacles that are met late
 

@@ -34,7 +34,7 @@ Line level(std::string name, double end, double value) {
 
 Figure pair_figure(const Scene& scene, const AnalysisRecord& record) {
   const BinnedCurve g = pair_correlation_curve(record.pairs, scene.analysis);
-  Panel panel{"g(r)", {}, true, false};
+  Panel panel{.y_label = "g(r)", .from_zero = true};
   panel.lines.push_back(line_of(record.partial.empty() ? "g(r)" : "all disks", g.middle, g.value));
   for (const PartialCurve& part : partial_curves(record, scene.analysis)) {
     const auto name = [](const std::string& group) { return shortened(group, pair_letters); };
@@ -56,7 +56,7 @@ Figure speed_figure(const Scene& scene, const AnalysisRecord& record) {
     curve->middle.resize(bins);
     curve->value.resize(bins);
   }
-  Panel panel{"probability density", {}, true, false};
+  Panel panel{.y_label = "probability density", .from_zero = true};
   panel.lines.push_back(line_of("measured", measured.middle, measured.value, LineStyle::points));
   panel.lines.push_back(line_of("Maxwell", maxwell.middle, maxwell.value));
   return {heading(scene.title, "speeds"), "speed v, in units of sqrt(T / m)", measured.middle.back(), {panel}};
@@ -65,7 +65,7 @@ Figure speed_figure(const Scene& scene, const AnalysisRecord& record) {
 Figure density_figure(const Scene& scene, const AnalysisRecord& record) {
   const bool along_x = scene.analysis.density_along_x;
   const BinnedCurve packing = packing_curve(record.density, scene);
-  Panel panel{"packing fraction", {}, true, false};
+  Panel panel{.y_label = "packing fraction", .from_zero = true};
   panel.lines.push_back(line_of("local", packing.middle, packing.value));
   const SampleMean mean = sample_mean(packing.value);
   const double end = packing.middle.back();
@@ -76,7 +76,7 @@ Figure density_figure(const Scene& scene, const AnalysisRecord& record) {
 
 Figure series_figure(const Scene& scene, const AnalysisRecord& record, const std::vector<double>& values,
                      const char* subject, const char* label) {
-  Panel panel{label, {}, true, false};
+  Panel panel{.y_label = label, .from_zero = true};
   panel.lines.push_back(line_of("samples", record.series.time, values));
   const Line samples = panel.lines[0];
   const double end = samples.x.empty() ? 0.0 : samples.x.back();
@@ -87,7 +87,7 @@ Figure series_figure(const Scene& scene, const AnalysisRecord& record, const std
 
 Figure profile_figure(const Scene& scene, const AnalysisRecord& record) {
   const ProfileCurves curves = profile_curves(record.motion, scene);
-  Panel velocity{"velocity", {}, false, false}, temperature{"temperature", {}, true, false};
+  Panel velocity{.y_label = "velocity"}, temperature{.y_label = "temperature", .from_zero = true};
   velocity.lines.push_back(line_of("vx", curves.position, curves.vx));
   velocity.lines.push_back(line_of("vy", curves.position, curves.vy));
   temperature.lines.push_back(line_of("temperature", curves.position, curves.temperature));
@@ -101,7 +101,7 @@ Figure profile_figure(const Scene& scene, const AnalysisRecord& record) {
 }
 
 Figure structure_figure(const Scene& scene, const AnalysisRecord& record) {
-  Panel panel{"S(k)", {}, true, false};
+  Panel panel{.y_label = "S(k)", .from_zero = true};
   double end = 0.0;
   const auto add = [&](const char* name, const StructureCurve& curve) {
     if (curve.k.empty()) return;
@@ -116,7 +116,7 @@ Figure structure_figure(const Scene& scene, const AnalysisRecord& record) {
 
 Figure order_figure(const Scene& scene, const AnalysisRecord& record) {
   const SampleSeries& series = record.series;
-  Panel panel{"psi6", {}, true, false};
+  Panel panel{.y_label = "psi6", .from_zero = true};
   panel.lines.push_back(line_of("around each disk", series.time, series.local_order));
   panel.lines.push_back(line_of("of all", series.time, series.global_order));
   return {heading(scene.title, "bond order"), "time t", series.time.empty() ? 1.0 : series.time.back(), {panel}};
@@ -124,7 +124,7 @@ Figure order_figure(const Scene& scene, const AnalysisRecord& record) {
 
 Figure bond_figure(const Scene& scene, const AnalysisRecord& record) {
   const BinnedCurve curve = bond_correlation_curve(record, scene.analysis);
-  Panel panel{"g6(r)", {}, false, false};
+  Panel panel{.y_label = "g6(r)"};
   panel.lines.push_back(line_of("g6(r)", curve.middle, curve.value));
   const double end = panel.lines[0].x.empty() ? scene.analysis.bonds.r_max : panel.lines[0].x.back();
   return {heading(scene.title, "bond correlation"), "distance r", end, {panel}};
@@ -133,7 +133,7 @@ Figure bond_figure(const Scene& scene, const AnalysisRecord& record) {
 Figure memory_figure(const Scene& scene, const AnalysisRecord& record, const std::vector<double>& values,
                      const char* subject, const char* label) {
   const SampleSeries& series = record.series;
-  Panel panel{label, {}, false, false};
+  Panel panel{.y_label = label};
   std::vector<double> since;
   for (const double t : series.time) since.push_back(t - series.time.front());
   panel.lines.push_back(line_of(label, since, values));
@@ -154,7 +154,7 @@ Line slope(const char* name, const Line& curve, std::size_t through, double expo
 
 Figure displacement_figure(const Scene& scene, const AnalysisRecord& record) {
   const SampleSeries& series = record.series;
-  Panel panel{"mean square displacement", {}, false, false};
+  Panel panel{.y_label = "mean square displacement"};
   Line curve{"measured", {}, {}, LineStyle::solid};
   for (std::size_t k = 0; k < series.time.size(); ++k) {
     const double since = series.time[k] - series.time.front();

@@ -27,7 +27,7 @@ struct Band {
 
 struct Panel {
   std::string y_label;
-  std::vector<Line> lines;
+  std::vector<Line> lines{};
   bool from_zero = false;     // the vertical axis includes 0
   bool wide_first = false;    // the first line is drawn wide, so that it shows where a later one covers it
   std::vector<Band> bands{};  // the first is the hindmost

@@ -92,7 +92,7 @@ Panel band_panel(const char* y_label, const VelocityRecord& record,
   constexpr std::array<const char*, velocity_levels> names{"least", "5 %",  "25 %",    "median",
                                                            "75 %",  "95 %", "greatest"};
   constexpr std::array<const char*, velocity_levels / 2> shades{"#e1eef6", "#b5d5e9", "#7db5d8"};  // light to dark
-  Panel panel{y_label, {}};
+  Panel panel{.y_label = y_label};
   std::vector<double> times;
   std::array<std::vector<double>, velocity_levels> levels;
   for (const VelocityBand& band : record.bands) {
@@ -153,7 +153,7 @@ bool plot_velocity(const std::string& path, const std::string& title, const Velo
 
 bool plot_energy(const std::string& path, const std::string& title, const EnergyRecord& record) {
   // From zero: without it the axis would zoom into rounding errors of a total that is constant.
-  Panel panel{"energy", {}, true, true};
+  Panel panel{.y_label = "energy", .from_zero = true, .wide_first = true};
   panel.lines.push_back({"total", record.t, record.total});
   panel.lines.push_back({"kinetic", record.t, record.kinetic});
   const bool has_potential =

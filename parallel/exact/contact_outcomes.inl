@@ -111,7 +111,7 @@ void EventProcessor<scope>::collide_smooth_pair(const Flight& flight, std::uint3
                   : collide_across<Flight::falls>(time, share, restitution, a.path, b.path);
   };
   PlainCollision outcome;
-  PairRestitution pair{window_.rules.restitution, false, false};
+  PairRestitution pair{.value = window_.rules.restitution, .elastic = false, .held = false};
   if constexpr (!constant) {
     outcome = collide([&](const Relative& r) { return (pair = pair_restitution(i, j, time, r)).value; });
   } else {

@@ -65,7 +65,7 @@ inline std::size_t most_regions(std::size_t disks, const Domain& box) {
 // The layout for all disks together; whether windows are run in parts is asked before (HaloWindows). regions_allowed:
 // false where a window is to be run again without regions.
 inline ListLayout choose_layout(std::size_t disks, const Domain& box, bool regions_allowed, const Executor& executor) {
-  if (disks <= all_pairs_up_to) return {EngineMode::all_pairs, 0, 0, 1.0, false};
+  if (disks <= all_pairs_up_to) return {.mode = EngineMode::all_pairs};
   // Where work is cut into smaller blocks, regions are wanted for fewer disks too, and more than one on one thread.
   const bool is_cut = executor.grain(single_queue_up_to) < single_queue_up_to;
   const std::size_t single = is_cut                    ? executor.grain(single_queue_of_cut_work_up_to)
@@ -75,15 +75,14 @@ inline ListLayout choose_layout(std::size_t disks, const Domain& box, bool regio
   const std::size_t regions = is_cut ? wanted : std::min(wanted, most_regions(disks, box));
   // Regions know no images that move.
   if (!regions_allowed || box.shear.acts() || disks <= single || regions < 2) {
-    return {EngineMode::single_queue, 0, 0, 1.0, disks > executor.grain(disks_in_cache)};
+    return {.mode = EngineMode::single_queue, .looks_ahead = disks > executor.grain(disks_in_cache)};
   }
   const std::size_t disks_a_tile = std::min(executor.grain(most_disks_a_tile), disks / (tiles_a_region * regions) + 1);
-  return {EngineMode::regions,
-          disks_a_tile,
-          regions,
-          region_relist_share,
-          disks / regions > executor.grain(disks_in_cache),
-          0};
+  return {.mode = EngineMode::regions,
+          .disks_per_tile = disks_a_tile,
+          .regions = regions,
+          .relist_share = region_relist_share,
+          .looks_ahead = disks / regions > executor.grain(disks_in_cache)};
 }
 
 // The layout for a part of the box and its halo, which have so many disks together: one calendar. low, high: the part

@@ -21,7 +21,7 @@ Disks each_once(std::vector<Disk> list) {
   list.erase(std::unique(list.begin(), list.end(), [](const Disk& a, const Disk& b) { return a.id == b.id; }),
              list.end());
   Disks disks;
-  for (const Disk& disk : list) push_back(disks, disk, {true, true, false});
+  for (const Disk& disk : list) push_back(disks, disk, {.radius = true, .mass = true});
   return disks;
 }
 

@@ -45,7 +45,7 @@ class RankLead {
 
   // Of the engine that was made last. Precondition: it is there, and no rank is lost.
   RankReport report() const { return report_(); }
-  // What is said of all disks, with the bits of one machine, without that a rank has them all.
+  // Figures of all disks, with the bits of one machine; no rank needs to have them all.
   StateSums sums() const { return sums_(); }
   DeepestOverlaps overlaps() const { return overlaps_(); }
 

@@ -27,7 +27,7 @@ const Disks& OrderedDisks::piece(std::size_t number) {
   truncate(some_, 0);
   if (ranks_.rank() > 0) return some_;
   take(messages);
-  for (const Disk& disk : list_) push_back(some_, disk, {true, true, own_.spins()});
+  for (const Disk& disk : list_) push_back(some_, disk, {.radius = true, .mass = true, .spin = own_.spins()});
   return some_;
 }
 

@@ -34,7 +34,7 @@ class InSlabs {
   virtual ~InSlabs() = default;
   // The same on all ranks; null while the disks are not in slabs.
   virtual const SlabCut* slab_cut() const = 0;
-  // This rank's disks, without that a state is made of them.
+  // This rank's disks; no state is made of them.
   virtual Count own_disks() const = 0;
   // Disks of other ranks that this one had beside its own in the last step; 0 while the disks are not in slabs.
   virtual Count ghosts() const = 0;

@@ -125,7 +125,7 @@ std::vector<Scene> scenes_of_all_sums() {
   return scenes;
 }
 
-// Sums and overlaps without that rank 0 has all disks; and a run goes on after memory was given back.
+// Sums and overlaps while rank 0 has not all disks; and a run goes on after memory was given back.
 TEST(StateOfRanks, SaysOfAllDisksWhatOneMachineSays) {
   double deepest = 0.0;
   for (const Scene& scene : scenes_of_all_sums()) {
