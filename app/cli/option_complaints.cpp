@@ -24,9 +24,11 @@ std::vector<std::string_view> option_names(const CLI::App* command, std::vector<
 // What ./carom, which builds the program and then becomes it, does besides.
 constexpr const char* launcher_help = R"(The launcher ./carom in the sources has some more:
   test [ctest's arguments]    build and run the tests
-  bench                       build and run the benchmarks
   python [ARGUMENTS]          build the Python module and start Python with it
+  bench                       build and run the benchmarks
   bench counts [--check]      count the instructions and cache misses of fixed scenes
+  bench counts --features     count those of a gas with one feature each
+  bench ranks                 time ranks on this machine beside a model of their parts
   packages [SECTION]          only install what cmake/packages.txt lists
 )";
 
