@@ -126,15 +126,15 @@ std::string series_rows() {
                       heat_column.name, heat_column.unit, heat_column.meaning);
   text += fmt::format("| `{}_left`, likewise | {} | {}; a column a side that moves |\n", work_column.name,
                       work_column.unit, work_column.meaning);
-  for (const SideColumn& column : wall_columns) {
+  for (const ColumnText& column : wall_columns) {
     text += fmt::format("| `{}` | {} | {}; only with such walls |\n", column.name, column.unit, column.meaning);
   }
   text += fmt::format("| `{}` | {} | {}; only with one |\n", thermostat_column.name, thermostat_column.unit,
                       thermostat_column.meaning);
-  for (const RotationColumn& column : rotation_columns) {
+  for (const ColumnText& column : rotation_columns) {
     text += fmt::format("| `{}` | {} | {} |\n", column.name, column.unit, column.meaning);
   }
-  for (const ShearColumn& column : shear_columns) {
+  for (const ColumnText& column : shear_columns) {
     text += fmt::format("| `{}` | {} | {}; only with `shear_rate` |\n", column.name, column.unit, column.meaning);
   }
   text +=

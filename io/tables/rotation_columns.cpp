@@ -7,7 +7,7 @@ namespace carom {
 std::vector<std::string> rotation_column_names(const Scene& scene) {
   std::vector<std::string> names;
   if (!scene.physics.surfaces.are_rough()) return names;
-  for (const RotationColumn& column : rotation_columns) names.emplace_back(column.name);
+  for (const ColumnText& column : rotation_columns) names.emplace_back(column.name);
   return names;
 }
 

@@ -7,16 +7,11 @@
 #include "core/base/block_runner.hpp"
 #include "core/disks/disks_in_pieces.hpp"
 #include "core/scene/scene.hpp"
+#include "io/tables/column_text.hpp"
 
 namespace carom {
 
-// docs/scene.md has them from here.
-struct RotationColumn {
-  const char* name;
-  const char* unit;
-  const char* meaning;
-};
-inline constexpr RotationColumn rotation_columns[] = {
+inline constexpr ColumnText rotation_columns[] = {
     {"rotational", "energy", "sum of I w^2 / 2; `total` has it too; only where disks are rough, as the next"},
     {"rotational_temperature", "energy",
      "mean of I w^2 of a disk, 0 without disks; that of the motion of the centres is `kinetic` over `disks`"},

@@ -112,7 +112,7 @@ SeriesWriter::SeriesWriter(const std::string& path, const Scene& scene)
   for (const std::string& name : side_column_names(sources_)) heading += "," + name;
   for (const std::string& name : rotation_column_names(scene)) heading += "," + name;
   if (scene.box.shear.acts()) {
-    for (const ShearColumn& column : shear_columns) heading += fmt::format(",{}", column.name);
+    for (const ColumnText& column : shear_columns) heading += fmt::format(",{}", column.name);
   }
   for (const GroupColumn& column : groups_.columns()) heading += fmt::format(",{}", column.name);
   file_.write(heading + "\n");

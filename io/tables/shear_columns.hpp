@@ -3,23 +3,18 @@
 
 #include <array>
 
+#include "io/tables/column_text.hpp"
+
 namespace carom {
 
-// docs/scene.md has them from here.
-struct ShearColumn {
-  const char* name;
-  const char* unit;
-  const char* meaning;
-};
-inline constexpr std::array<ShearColumn, 4> shear_columns{{
+inline constexpr std::array<ColumnText, 4> shear_columns{{
     {"shear_stress", "energy / area",
      "-P_xy, mean since the row before: of the velocities of this row, relative to the flow, and of all collisions "
      "since then"},
     {"viscosity", "mass / time", "shear_stress / shear_rate"},
     {"temperature", "energy", "mean kinetic energy of a disk relative to the flow g (y - height / 2)"},
     {"shear_work", "energy",
-     "that the moving images have done on the disks since the start: elastic disks have it as "
-     "kinetic energy"},
+     "that the moving images have done on the disks since the start: elastic disks have it as kinetic energy"},
 }};
 
 }  // namespace carom

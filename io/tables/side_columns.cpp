@@ -23,7 +23,7 @@ std::vector<std::string> side_column_names(const EnergySources& sources) {
     names.push_back(fmt::format("{}_{}", name, side_names[static_cast<std::size_t>(side)]));
   }
   if (box.inner_walls_move) {
-    for (const SideColumn& column : wall_columns) names.emplace_back(column.name);
+    for (const ColumnText& column : wall_columns) names.emplace_back(column.name);
   }
   if (sources.thermostat) names.emplace_back(thermostat_column.name);
   return names;

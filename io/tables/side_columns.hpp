@@ -6,29 +6,25 @@
 
 #include "core/disks/state.hpp"
 #include "core/scene/scene.hpp"
+#include "io/tables/column_text.hpp"
 
 namespace carom {
 
-// A column's name is this one's, an underscore, and the side's. docs/scene.md has them from here.
-struct SideColumn {
-  const char* name;
-  const char* unit;
-  const char* meaning;
-};
-inline constexpr SideColumn heat_column{
+// A column's name is this one's, an underscore, and the side's.
+inline constexpr ColumnText heat_column{
     "heat", "energy", "that a thermal side has given to the disks since the start; its slope is the flow of heat"};
 
-inline constexpr SideColumn work_column{"work", "energy",
+inline constexpr ColumnText work_column{"work", "energy",
                                         "that a side that moves has done on the disks since the start"};
 
 // Columns of their own names.
-inline constexpr SideColumn wall_columns[] = {
+inline constexpr ColumnText wall_columns[] = {
     {"wall_work", "energy", "that inner walls which move have done on the disks since the start"},
     {"wall_push_x", "mass length / time", "momentum along x that they have given to the disks since the start"},
     {"wall_push_y", "mass length / time", "likewise along y"},
 };
 
-inline constexpr SideColumn thermostat_column{"thermostat_heat", "energy",
+inline constexpr ColumnText thermostat_column{"thermostat_heat", "energy",
                                               "that the thermostat has given to the disks since the start"};
 
 // What a scene has of them.
