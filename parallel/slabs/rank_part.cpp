@@ -121,47 +121,56 @@ RankReport RankPart::report() const {
 }
 
 void follow(RankCall call, Ranks& ranks, RankPart& part, const Traffic& before) {
-  if (call == RankCall::step) {
-    try {
-      part.step(before);
-    } catch (const PhysicsError&) {
-      // Rank 0 has it too, and says so.
+  switch (call) {
+    case RankCall::step:
+      try {
+        return part.step(before);
+      } catch (const PhysicsError&) {
+        return;  // rank 0 has it too, and says so
+      }
+    case RankCall::collect:
+      return part.gather(nullptr);
+    case RankCall::lists:
+      return part.share_lists();
+    case RankCall::piece:
+      return static_cast<void>(part.lists().piece({}, 0));
+    case RankCall::show:
+      return part.show(false, 0.0);
+    case RankCall::some:
+      return part.shown().visit({});
+    case RankCall::overlap:
+      return static_cast<void>(part.shown_overlap());
+    case RankCall::pairs:
+      return static_cast<void>(part.shown_pairs());
+    case RankCall::orders:
+      return static_cast<void>(part.visit_shown_orders({}));
+    case RankCall::bonds:
+      return static_cast<void>(part.shown_bonds());
+    case RankCall::look: {
+      double t = 0.0;
+      return part.gather_at(t, nullptr);
     }
-  } else if (call == RankCall::collect) {
-    part.gather(nullptr);
-  } else if (call == RankCall::lists) {
-    part.share_lists();
-  } else if (call == RankCall::piece) {
-    part.lists().piece({}, 0);
-  } else if (call == RankCall::show) {
-    part.show(false, 0.0);
-  } else if (call == RankCall::some) {
-    part.shown().visit({});
-  } else if (call == RankCall::overlap) {
-    part.shown_overlap();
-  } else if (call == RankCall::pairs) {
-    part.shown_pairs();
-  } else if (call == RankCall::orders) {
-    part.visit_shown_orders({});
-  } else if (call == RankCall::bonds) {
-    part.shown_bonds();
-  } else if (call == RankCall::look) {
-    double t = 0.0;
-    part.gather_at(t, nullptr);
-  } else if (call == RankCall::forget) {
-    part.engine().forget_paths();
-  } else if (call == RankCall::contacts) {
-    Bytes own;
-    put_all(own, part.engine().contacts());
-    ranks.collect(own);
-  } else if (call == RankCall::sums) {
-    part.sums();
-  } else if (call == RankCall::overlaps) {
-    part.overlaps();
-  } else if (call == RankCall::release) {
-    part.release_memory();
-  } else if (call == RankCall::report) {
-    part.report();
+    case RankCall::contacts: {
+      Bytes own;
+      put_all(own, part.engine().contacts());
+      return static_cast<void>(ranks.collect(own));
+    }
+    case RankCall::sums:
+      return static_cast<void>(part.sums());
+    case RankCall::overlaps:
+      return static_cast<void>(part.overlaps());
+    case RankCall::forget:
+      return part.engine().forget_paths();
+    case RankCall::release:
+      return part.release_memory();
+    case RankCall::report:
+      return static_cast<void>(part.report());
+    // Those that make an engine or end one are follow_lead's.
+    case RankCall::end:
+    case RankCall::make:
+    case RankCall::begin:
+    case RankCall::drop:
+      return;
   }
 }
 

@@ -19,29 +19,29 @@
 
 namespace carom {
 
-// What rank 0 says that comes next.
+// What rank 0 says that comes next: which function of the lead, or of its engine, was called there.
 enum class RankCall : std::int64_t {
-  end,
-  make,
-  begin,
-  step,
-  collect,
-  lists,
-  piece,
-  show,
-  some,
-  overlap,
-  pairs,
-  orders,
-  bonds,
-  look,
-  contacts,
-  sums,
-  overlaps,
-  forget,
-  release,
-  report,
-  drop
+  end,       // RankLead::end
+  make,      // make_engine
+  begin,     // make_engine_at_start
+  step,      // Engine::step
+  collect,   // state
+  lists,     // pieces
+  piece,     // a piece of a list of those
+  show,      // pieces_at
+  some,      // of these disks: DisksInPieces::visit
+  overlap,   // max_overlap
+  pairs,     // pair_counts
+  orders,    // visit_orders
+  bonds,     // bond_pairs
+  look,      // Engine::disks_at
+  contacts,  // contacts
+  sums,      // RankLead::sums
+  overlaps,  // overlaps
+  forget,    // Engine::forget_paths
+  release,   // release_memory
+  report,    // RankLead::report
+  drop       // the engine is gone
 };
 
 // The same on all ranks; only what rank 0 gives counts.
