@@ -1,0 +1,353 @@
+// What an event of the exact method does to a disk, case by case: the TC model's elastic contacts and hops, what is
+// counted as inaccurate or as a loss of energy, and the least rebound of disks that e = 0 would leave together.
+#include "core/physics/exact_event.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "core/disks/obstacle_cells.hpp"
+#include "tests/support/disks_by_hand.hpp"
+
+namespace carom {
+namespace {
+
+constexpr double contact_time = 0.5;
+
+// A box 10 high and wide with walls of restitution 0.5, under the TC model.
+ExactRules tc_rules() {
+  ExactRules rules;
+  rules.box = test::box_of(10.0, 10.0);
+  rules.box.restitutions.fill(0.5);
+  rules.restitution = 0.5;
+  rules.contact_time = contact_time;
+  rules.constant = false;
+  return rules;
+}
+
+ExactDisk disk_at(double x, double y, double vx, double vy, double last_contact = -never) {
+  ExactDisk a;
+  a.path = {0.0, x, y, vx, vy};
+  a.mass = 2.0;
+  a.radius = 1.0;
+  a.last_contact = last_contact;
+  return a;
+}
+
+// Luding and McNamara 1998: elastic where either disk collided less than contact_time ago; a contact that was longer
+// ago, by as much or more, is not.
+TEST(TcPair, IsElasticWhereEitherDiskCollidedShortlyBefore) {
+  const ExactRules rules = tc_rules();
+  const double s = 1.0;
+  for (const auto& [ago1, ago2, elastic] : {std::tuple{0.25, 7.0, true}, std::tuple{7.0, 0.25, true},
+                                            std::tuple{0.25, 0.25, true}, std::tuple{0.5, 0.75, false}}) {
+    ExactDisk a = disk_at(3.0, 5.0, 1.0, 0.0, s - ago1);
+    ExactDisk b = disk_at(7.0, 5.0, -1.0, 0.0, s - ago2);
+    b.id = 1;
+    const Impact impact = collide_at(rules, s, a, b);
+    EXPECT_TRUE(impact.happened);
+    EXPECT_EQ(b.path.vx - a.path.vx, elastic ? 2.0 : 1.0);
+    EXPECT_EQ(impact.inaccurate, elastic);
+    EXPECT_EQ(impact.lost_energy, !elastic);
+    EXPECT_EQ(a.last_contact, s);
+    EXPECT_EQ(b.last_contact, s);
+  }
+}
+
+// Where no contact loses energy none is made elastic: none is inaccurate.
+TEST(TcPair, ElasticDisksAreNotHeld) {
+  ExactRules rules = tc_rules();
+  rules.restitution = 1.0;
+  ExactDisk a = disk_at(4.0, 5.0, 1.0, 0.0, 0.0);
+  ExactDisk b = disk_at(6.0, 5.0, -1.0, 0.0, 0.0);
+  const Impact impact = collide_at(rules, 0.0, a, b);
+  EXPECT_TRUE(impact.happened);
+  EXPECT_FALSE(impact.inaccurate);
+  EXPECT_FALSE(impact.lost_energy);
+}
+
+// Rough disks of e = 1 may lose energy along their surfaces alone. Under the TC model they are smooth, which is
+// inaccurate; else friction acts.
+TEST(TcPair, RoughDisksAreSmoothWhereItHoldsThem) {
+  const Surfaces surfaces{0.5, {0.5, 0.1}, {}};
+  for (const bool held : {true, false}) {
+    ExactRules rules = tc_rules();
+    rules.restitution = 1.0;
+    rules.surfaces = &surfaces;
+    ExactDisk a = disk_at(4.0, 5.0, 1.0, 0.0, held ? 0.0 : -never);
+    ExactDisk b = disk_at(6.0, 5.0, -1.0, 0.0);
+    a.spin = 3.0;
+    const Impact impact = collide_at(rules, 0.0, a, b);
+    EXPECT_EQ(a.spin == 3.0, held);
+    EXPECT_EQ(impact.inaccurate, held);
+    EXPECT_EQ(impact.lost_energy, !held);
+  }
+}
+
+// e = 0, by number or by a law, leaves a least rebound: disks must not meet again at that moment for ever.
+TEST(LeastRebound, OfDisksThatStick) {
+  RestitutionLaw law;
+  law.viscosity = 2.0;  // e(1) < 0 without its least value
+  for (const RestitutionLaw* of :
+       {static_cast<const RestitutionLaw*>(nullptr), static_cast<const RestitutionLaw*>(&law)}) {
+    ExactRules rules = tc_rules();
+    rules.restitution = of == nullptr ? least_rebound : 0.0;
+    rules.law = of;
+    ExactDisk a = disk_at(4.0, 5.0, 1.0, 0.0);
+    ExactDisk b = disk_at(6.0, 5.0, -1.0, 0.0);
+    collide_at(rules, 0.0, a, b);
+    EXPECT_EQ(b.path.vx - a.path.vx, 2.0 * least_rebound);
+  }
+}
+
+// A disk at rest on the floor leaves it with a quarter of g contact_time; from walls that gravity does not press it
+// against it does not hop, and one that leaves faster by itself is not slowed.
+TEST(TcHop, OffTheFloor) {
+  ExactRules rules = tc_rules();
+  rules.gravity = 0.8;
+  ExactDisk rests = disk_at(5.0, 1.0, 0.3, 0.0);
+  const Impact impact = meet_side_at(rules, 0.0, Side::bottom, rests);
+  EXPECT_DOUBLE_EQ(rests.path.vy, 0.25 * 0.8 * contact_time);
+  EXPECT_EQ(rests.path.vx, 0.3);
+  EXPECT_DOUBLE_EQ(impact.virial, 2.0 * 0.25 * 0.8 * contact_time);
+  EXPECT_EQ(rests.last_contact, 0.0);
+  ExactDisk fast = disk_at(5.0, 1.0, 0.0, -4.0);
+  EXPECT_DOUBLE_EQ(meet_side_at(rules, 0.0, Side::bottom, fast).virial, 2.0 * 6.0);
+  EXPECT_EQ(fast.path.vy, 2.0);
+  ExactDisk at_ceiling = disk_at(5.0, 9.0, 0.0, 0.0);
+  EXPECT_EQ(meet_side_at(rules, 0.0, Side::top, at_ceiling).virial, 0.0);
+  EXPECT_EQ(at_ceiling.path.vy, 0.0);
+}
+
+// An impact on a wall is held, and then inaccurate, or loses energy: one of both.
+TEST(TcWall, IsElasticShortlyAfterAContact) {
+  const ExactRules rules = tc_rules();
+  for (const bool held : {true, false}) {
+    ExactDisk a = disk_at(9.0, 5.0, 2.0, 0.0, held ? 0.75 : 0.25);
+    a.path.start = 1.0;
+    const Impact impact = meet_side_at(rules, 1.0, Side::right, a);
+    EXPECT_EQ(a.path.vx, held ? -2.0 : -1.0);
+    EXPECT_EQ(impact.inaccurate, held);
+    EXPECT_EQ(impact.lost_energy, !held);
+    EXPECT_EQ(a.last_contact, 1.0);
+  }
+}
+
+// Held at a rough wall it keeps its spin.
+TEST(TcWall, IsSmoothWhereItHoldsADisk) {
+  const Surfaces surfaces{0.5, {}, {0.5, 0.1}};
+  for (const bool moving : {false, true}) {
+    for (const bool held : {true, false}) {
+      ExactRules rules = tc_rules();
+      rules.surfaces = &surfaces;
+      rules.box.restitutions.fill(1.0);
+      if (moving) {
+        rules.box.motions[1] = {SideMotion::Kind::steady, 0.0, 0.5};
+        rules.box.move_walls(0.0);
+      }
+      ExactDisk a = disk_at(9.0, 5.0, 2.0, 0.0, held ? 0.0 : -never);
+      a.spin = 3.0;
+      const Impact impact = meet_side_at(rules, 0.0, Side::right, a);
+      EXPECT_EQ(a.path.vx, moving ? -3.0 : -2.0);
+      EXPECT_EQ(a.spin == 3.0, held) << moving;
+      EXPECT_EQ(impact.inaccurate, held) << moving;
+      EXPECT_EQ(impact.lost_energy, !held) << moving;
+    }
+  }
+}
+
+// A floor that rises ever faster presses a disk that lies on it by g + a, so that it hops by so much; its work is its
+// speed times the impulse.
+TEST(TcHop, OffAFloorThatAccelerates) {
+  ExactRules rules = tc_rules();
+  rules.gravity = 0.8;
+  rules.box.motions[2] = {SideMotion::Kind::parabolas, 1.0, -0.25, -0.25, 4.0};
+  rules.box.move_walls(0.5);
+  const SidePlace floor = rules.box.place(Side::bottom);
+  ASSERT_EQ(floor.acceleration, 0.5);
+  ExactDisk rests = disk_at(5.0, 1.0 + floor.inset, 0.0, floor.speed);
+  const Impact impact = meet_side_at(rules, 0.0, Side::bottom, rests);
+  const double hop = 0.25 * (0.8 + 0.5) * contact_time;
+  EXPECT_DOUBLE_EQ(rests.path.vy, floor.speed + hop);
+  EXPECT_DOUBLE_EQ(impact.virial, 2.0 * hop);
+  EXPECT_DOUBLE_EQ(impact.energy, 2.0 * hop * floor.speed);
+  // A floor that gives way faster than disks fall is left alone.
+  rules.gravity = 0.2;
+  rules.box.move_walls(2.5);
+  ASSERT_EQ(rules.box.place(Side::bottom).acceleration, -0.5);
+  ExactDisk left_behind = disk_at(5.0, 1.0, 0.0, rules.box.place(Side::bottom).speed);
+  EXPECT_EQ(meet_side_at(rules, 0.0, Side::bottom, left_behind).virial, 0.0);
+}
+
+// The obstacles of the tests below.
+class TcObstacle : public ::testing::Test {
+ protected:
+  // rules.box has this one.
+  void place(const Obstacle& o, const WallMotion& motion = {}) {
+    std::vector<WallMotion> motions;
+    if (o.moves) motions.push_back(motion);
+    rules.box.inner_walls_move = o.moves;
+    cells_ = std::make_unique<ObstacleCells>(std::vector<Obstacle>{o}, motions, rules.box);
+    rules.box.obstacles = cells_.get();
+  }
+
+  ExactRules rules = tc_rules();
+  const Obstacle peg{5.0, 5.0, 0.0, 0.0, 2.0, 0.5, 9, ObstacleKind::disk};
+  const Obstacle slope{1.0, 2.0, 8.0, 6.0, 0.0, 0.5, 0, ObstacleKind::wall};
+
+ private:
+  std::unique_ptr<ObstacleCells> cells_;
+};
+
+// By the part of gravity that presses it there, from a fixed disk as from a slope: n = (-3, 4) / 5.
+TEST_F(TcObstacle, IsLeftWithAHop) {
+  rules.gravity = 0.8;
+  const double hop = 0.25 * 0.8 * 0.8 * contact_time;
+  place(peg);
+  ExactDisk on_peg = disk_at(5.0 - 1.8, 5.0 + 2.4, 0.0, 0.0);
+  Impact impact = meet_obstacle_at(rules, 0.0, 0, on_peg);
+  EXPECT_NEAR(on_peg.path.vx, -0.6 * hop, 1e-15);
+  EXPECT_NEAR(on_peg.path.vy, 0.8 * hop, 1e-15);
+  EXPECT_NEAR(impact.virial, 2.0 * hop, 1e-15);
+  EXPECT_EQ(on_peg.last_contact, 0.0);
+  place(slope);
+  ExactDisk on_slope = disk_at(5.0 - 0.6, 5.0 + 0.8, 0.4, 0.3);
+  impact = meet_obstacle_at(rules, 0.0, 0, on_slope);
+  EXPECT_NEAR(on_slope.path.vx, 0.4 - 0.6 * hop, 1e-15);
+  EXPECT_NEAR(on_slope.path.vy, 0.3 + 0.8 * hop, 1e-15);
+  EXPECT_NEAR(impact.virial, 2.0 * hop, 1e-15);
+}
+
+// One that comes in slowly leaves with the hop, not with its rebound and the hop.
+TEST_F(TcObstacle, IsLeftWithTheHopWhateverTheApproach) {
+  rules.gravity = 0.8;
+  place({1.0, 5.0, 8.0, 0.0, 0.0, 0.5, 0, ObstacleKind::wall});
+  ExactDisk slow = disk_at(5.0, 6.0, 0.0, -0.01);
+  EXPECT_NEAR(meet_obstacle_at(rules, 0.0, 0, slow).virial, 2.0 * (0.01 + 0.1), 1e-15);
+  EXPECT_NEAR(slow.path.vy, 0.25 * 0.8 * contact_time, 1e-15);
+  ExactDisk fast = disk_at(5.0, 6.0, 0.0, -4.0);
+  meet_obstacle_at(rules, 0.0, 0, fast);
+  EXPECT_NEAR(fast.path.vy, 2.0, 1e-15);
+}
+
+TEST_F(TcObstacle, IsElasticShortlyAfterAContact) {
+  place(peg);
+  for (const bool held : {true, false}) {
+    ExactDisk a = disk_at(5.0, 8.0, 0.0, -2.0, held ? -0.25 : -0.5);
+    const Impact impact = meet_obstacle_at(rules, 0.0, 0, a);
+    EXPECT_NEAR(a.path.vy, held ? 2.0 : 1.0, 1e-15);
+    EXPECT_EQ(impact.inaccurate, held);
+    EXPECT_EQ(impact.lost_energy, !held);
+    EXPECT_EQ(a.last_contact, 0.0);
+  }
+  // A disk that only passes by has no contact.
+  ExactDisk passes = disk_at(5.0, 8.0, 1.0, 0.0);
+  const Impact impact = meet_obstacle_at(rules, 0.0, 0, passes);
+  EXPECT_FALSE(impact.happened);
+  EXPECT_FALSE(impact.lost_energy);
+  EXPECT_EQ(passes.last_contact, -never);
+}
+
+// Rough ones of e = 1 lose energy along their surfaces alone; not where the TC model holds the disk.
+TEST_F(TcObstacle, IsSmoothWhereItHoldsADisk) {
+  const Surfaces surfaces{0.5, {0.5, 0.1}, {0.5, 0.1}};
+  rules.surfaces = &surfaces;
+  Obstacle elastic = peg;
+  elastic.restitution = 1.0;
+  place(elastic);
+  for (const bool held : {true, false}) {
+    ExactDisk a = disk_at(5.0, 8.0, 0.0, -2.0, held ? 0.0 : -never);
+    a.spin = 3.0;
+    const Impact impact = meet_obstacle_at(rules, 0.0, 0, a);
+    EXPECT_EQ(a.spin == 3.0, held);
+    EXPECT_EQ(impact.inaccurate, held);
+    EXPECT_EQ(impact.lost_energy, !held);
+  }
+}
+
+// e = 1 - a v^(1/5), and v is a speed: whatever the size of the fixed disk is.
+TEST_F(TcObstacle, HasTheRestitutionOfTheSpeedOfApproach) {
+  RestitutionLaw law;
+  law.viscosity = 0.25;
+  rules.restitution = 0.0;
+  rules.law = &law;
+  place(peg);
+  ExactDisk a = disk_at(5.0, 8.0, 0.0, -32.0);
+  meet_obstacle_at(rules, 0.0, 0, a);
+  EXPECT_NEAR(a.path.vy, 0.5 * 32.0, 1e-12);  // 32^(1/5) = 2
+}
+
+TEST_F(TcObstacle, HasALeastRebound) {
+  rules.constant = true;
+  rules.contact_time = -1.0;
+  Obstacle sticks = peg;
+  sticks.restitution = 0.0;
+  place(sticks);
+  ExactDisk a = disk_at(5.0, 8.0, 0.0, -2.0);
+  meet_obstacle_at(rules, 0.0, 0, a);
+  EXPECT_NEAR(a.path.vy, 2.0 * least_rebound, 1e-27);
+}
+
+// In the frame of an inner wall that rises ever faster, as a sine before its turn: g + a presses disks on it.
+TEST_F(TcObstacle, ThatAcceleratesIsLeftWithAHigherHop) {
+  rules.gravity = {0.3, 0.8};
+  WallMotion motion;
+  motion.pace = {SideMotion::Kind::parabolas, 0.0, 0.0, 1.0, 4.0};
+  motion.along = {-0.15, -0.2};  // down at first, ever slower
+  Obstacle wall = slope;
+  wall.moves = true;
+  // n = (-3, 4) / 5 is turned to where gravity and the wall's acceleration press: both count along both axes.
+  place(wall, motion);
+  rules.box.move_walls(0.5);
+  const WallPlace now = motion.at(rules.box.clock);
+  const double gn = (0.3 * -0.6 + 0.8 * 0.8) + (now.acceleration.x * -0.6 + now.acceleration.y * 0.8);
+  ASSERT_NE(now.acceleration.x, 0.0);
+  const double hop = 0.25 * gn * contact_time;
+  ASSERT_GT(hop, 0.0);
+  ExactDisk a = disk_at(5.0 - 0.6 + now.shift.x, 5.0 + 0.8 + now.shift.y, now.velocity.x, now.velocity.y);
+  const Impact impact = meet_obstacle_at(rules, 0.0, 0, a);
+  EXPECT_NEAR(a.path.vx, now.velocity.x - 0.6 * hop, 1e-14);
+  EXPECT_NEAR(a.path.vy, now.velocity.y + 0.8 * hop, 1e-14);
+  EXPECT_NEAR(impact.energy, 2.0 * hop * (-0.6 * now.velocity.x + 0.8 * now.velocity.y), 1e-14);
+}
+
+// A sum of reasons, each of which is enough.
+TEST(Dissipation, IsThatOfDisksLawsWallsSurfacesAndObstacles) {
+  ExactRules rules;
+  rules.box = test::box_of(10.0, 10.0);
+  EXPECT_FALSE(dissipates(rules));
+  ExactRules disks = rules;
+  disks.restitution = 0.9;
+  EXPECT_TRUE(dissipates(disks));
+  ExactRules walls = rules;
+  walls.box.restitutions[3] = 0.9;
+  EXPECT_TRUE(dissipates(walls));
+  const Surfaces surfaces{0.5, {}, {0.5, 0.1}};
+  ExactRules rough = rules;
+  rough.surfaces = &surfaces;
+  EXPECT_TRUE(dissipates(rough));
+  RestitutionLaw law;
+  law.pairs = {{0, 1, {0.9, 0.0}}};
+  ExactRules pairs = rules;
+  pairs.law = &law;
+  EXPECT_TRUE(dissipates(pairs));
+  const ObstacleCells cells({{5.0, 5.0, 0.0, 0.0, 1.0, 0.9}}, {}, rules.box);
+  ExactRules pegs = rules;
+  pegs.box.obstacles = &cells;
+  EXPECT_TRUE(dissipates(pegs));
+}
+
+// 257 impacts that lose energy within 1e-12 of a window are a collapse; as many over twice that time are none.
+TEST(Burst, IsOfMoreThan256ImpactsInAVanishingTime) {
+  const double window = 8.0;
+  Burst burst;
+  for (int k = 0; k < 256; ++k) EXPECT_FALSE(burst.add(1.0, window)) << k;
+  EXPECT_TRUE(burst.add(1.0 + 0.9e-12 * window, window));
+  Burst slower;
+  for (int k = 0; k < 1024; ++k) EXPECT_FALSE(slower.add(1.0 + k * (0.01e-12 * window), window)) << k;
+}
+
+}  // namespace
+}  // namespace carom
