@@ -1,10 +1,16 @@
-// When a falling disk touches something round: never later than it would overlap it.
+// A disk and one obstacle: when a falling disk touches something round, a plane or a sink, and what it touches where
+// walls join, where centres coincide and where images of one obstacle are close.
 #include "core/physics/obstacle_path.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include "core/disks/obstacle_cells.hpp"
+#include "core/physics/exact_path.hpp"
+#include "tests/support/disks_by_hand.hpp"
 
 namespace carom {
 namespace {
@@ -28,6 +34,103 @@ TEST(FallPast, TouchesAtOnceWhereGravityPressesItOnSomethingRound) {
     for (const double share : {0.25, 0.5, 1.0}) {
       EXPECT_GT(fall.gap2(share * t), -1e-12 * contact * contact) << "case " << k << ", time " << share * t;
     }
+  }
+}
+
+// Closed forms, from outside: 2 t + t^2 = 3 and the like, the earlier root. None where it turns back before, nor where
+// it is beyond; one that touches and moves away touches again when it has come back, after 2 v / a.
+TEST(TimeToPlane, IsTheFirstRoot) {
+  EXPECT_DOUBLE_EQ(time_to_plane(3.0, 2.0, 2.0, false), 1.0);
+  EXPECT_DOUBLE_EQ(time_to_plane(3.0, -2.0, 2.0, false), 3.0);
+  EXPECT_DOUBLE_EQ(time_to_plane(0.75, 2.0, -2.0, false), 0.5);
+  EXPECT_EQ(time_to_plane(1.25, 2.0, -2.0, false), never);
+  EXPECT_EQ(time_to_plane(-0.5, 2.0, 2.0, false), never);
+  EXPECT_EQ(time_to_plane(-1.0, -1.0, 2.0, false), never);
+  EXPECT_EQ(time_to_plane(3.0, -2.0, -2.0, false), never);
+  EXPECT_EQ(time_to_plane(0.0, 2.0, -9.0, true), 0.0);
+  EXPECT_DOUBLE_EQ(time_to_plane(-1e-17, -3.0, 2.0, true), 3.0);
+  EXPECT_EQ(time_to_plane(-1e-17, -3.0, 0.0, true), never);
+}
+
+const Obstacle floor_piece{2.0, 5.0, 6.0, 0.0, 0.0, 1.0, 0, ObstacleKind::wall};
+
+// A disk whose centre lies on a wall has to be put back to one side of it: the left of the way along it.
+TEST(ObstacleGap, OfACentreOnTheObstacleHasADirection) {
+  const Domain box = test::box_of(20.0, 10.0);
+  const ObstacleGap on_wall = gap_to(floor_piece, 5.0, 5.0, 1.0, box);
+  EXPECT_TRUE(on_wall.flat);
+  EXPECT_EQ(on_wall.nx, 0.0);
+  EXPECT_EQ(on_wall.ny, 1.0);
+  EXPECT_EQ(on_wall.beyond, 1.0);
+  const ObstacleGap on_peg = gap_to({5.0, 5.0, 0.0, 0.0, 2.0}, 5.0, 5.0, 1.0, box);
+  EXPECT_EQ(on_peg.nx, 0.0);
+  EXPECT_EQ(on_peg.ny, 1.0);
+  EXPECT_EQ(on_peg.beyond, 3.0);
+}
+
+// Half-way between a fixed disk and its image, and large enough to touch both: one contact, with the nearest.
+TEST(ObstacleGap, OfTwoImagesTheNearestIsTouched) {
+  Domain box = test::box_of(4.0, 10.0, true);
+  const ObstacleCells cells({{0.5, 5.0, 0.0, 0.0, 1.0}}, {}, box);
+  box.obstacles = &cells;
+  for (const double x : {2.4, 2.6}) {
+    std::vector<ObstacleGap> gaps;
+    for_each_obstacle_touched(box, x, 5.0, 1.5, [&](std::uint32_t, const ObstacleGap& gap) { gaps.push_back(gap); });
+    ASSERT_EQ(gaps.size(), 1U);
+    EXPECT_EQ(gaps[0].nx, x < 2.5 ? 1.0 : -1.0);
+    EXPECT_NEAR(gaps[0].beyond, 2.5 - 1.9, 1e-15);
+  }
+}
+
+// A sink takes what touches it, at once, though the disk moves away; a wall there is not met.
+TEST(TimeToObstacle, IsNoneWhereADiskTouchesASink) {
+  Obstacle sink = floor_piece;
+  sink.kind = ObstacleKind::sink;
+  const PathSegment leaving{0.0, 5.0, 6.0, 0.5, 3.0};
+  const Vec2 apart{leaving.x - sink.x, leaving.y - sink.y};
+  for (const Gravity g : {Gravity(0.0), Gravity(0.5)}) {
+    EXPECT_EQ(time_to_obstacle(sink, apart, leaving, 1.0, g, 1.0), 0.0);
+    EXPECT_GT(time_to_obstacle(floor_piece, apart, leaving, 1.0, g, 1.0), 1.0);
+  }
+  // One that vibrates by 0.25 and is at its middle now.
+  WallMotion motion;
+  motion.pace = {SideMotion::Kind::sine, 0.0, 0.0, 1.0, 40.0};
+  motion.along = {0.0, -0.25};
+  EXPECT_EQ(time_to_swinging_wall({sink, motion, motion.pace.at(0.0)}, apart, leaving, 1.0, 0.0, 1.0), 0.0);
+  EXPECT_GT(time_to_swinging_wall({floor_piece, motion, motion.pace.at(0.0)}, apart, leaving, 1.0, 0.0, 1.0), 1.0);
+}
+
+// Where the end of one wall lies on the side of another, a disk there touches one of them: the side. Were each hidden
+// by the other, it would fall through.
+TEST(Joint, TheSideIsTouchedAndTheEndIsHidden) {
+  const Domain box = test::box_of(20.0, 10.0);
+  const Obstacle post{5.0, 2.0, 0.0, 3.0, 0.0, 1.0, 1, ObstacleKind::wall};  // up to the middle of floor_piece
+  const double r = 1.0;
+  const ObstacleGap side = gap_to(floor_piece, 5.0, 5.9, r, box);
+  const ObstacleGap end = gap_to(post, 5.0, 5.9, r, box);
+  ASSERT_TRUE(side.flat);
+  ASSERT_FALSE(end.flat);
+  for (const bool is_later : {false, true}) {
+    EXPECT_TRUE(hides(side, is_later, end, r, box));
+    EXPECT_FALSE(hides(end, is_later, side, r, box));
+  }
+  // Of two ends in one point, or of one wall twice, the later one is hidden.
+  const Obstacle on_the_way{8.0, 5.0, 4.0, 0.0, 0.0, 1.0, 2, ObstacleKind::wall};
+  const ObstacleGap first_end = gap_to(floor_piece, 8.0, 5.9, r, box);
+  const ObstacleGap second_end = gap_to(on_the_way, 8.0, 5.9, r, box);
+  EXPECT_TRUE(hides(first_end, true, second_end, r, box));
+  EXPECT_FALSE(hides(second_end, false, first_end, r, box));
+}
+
+// Walls that move apart from each other are two contacts in one place: each gives a disk its own velocity.
+TEST(Joint, WallsOfOtherVelocitiesHideNothing) {
+  const Domain box = test::box_of(20.0, 10.0);
+  const Obstacle post{5.0, 2.0, 0.0, 3.0, 0.0, 1.0, 1, ObstacleKind::wall};
+  const ObstacleGap end = gap_to(post, 5.0, 5.9, 1.0, box);
+  for (const Vec2 velocity : {Vec2{0.0, 0.0}, Vec2{0.5, 0.0}, Vec2{0.0, 0.5}}) {
+    ObstacleGap side = gap_to(floor_piece, 5.0, 5.9, 1.0, box);
+    side.velocity = velocity;
+    EXPECT_EQ(hides(side, false, end, 1.0, box), velocity.x == 0.0 && velocity.y == 0.0);
   }
 }
 

@@ -1,0 +1,80 @@
+// When a path has an event at a side or with another path, where it is rare in runs: at rest along a periodic side, at
+// a sink that it leaves, and with an image that is not the nearest one.
+#include "core/physics/exact_path.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/disks_by_hand.hpp"
+
+namespace carom {
+namespace {
+
+// One event for the axis: a quarter of the period, 3, at the side that the disk moves towards. At rest it falls that
+// far in sqrt(2 3 / g); one that moves up has a bound that it cannot beat, 3 = v t + g t^2 / 2.
+TEST(TimeToCrossing, IsThatOfAQuarterOfThePeriod) {
+  const Domain box = test::box_of(8.0, 12.0, true, true);
+  const Gravity g(1.5);
+  const auto time = [&](Side side, double vx, double vy, const Gravity& falls) {
+    return time_to_crossing(side, {0.0, 5.0, 5.0, vx, vy}, box, falls);
+  };
+  EXPECT_DOUBLE_EQ(time(Side::bottom, 1.0, 0.0, g), 2.0);
+  EXPECT_EQ(time(Side::top, 1.0, 0.0, g), never);
+  EXPECT_DOUBLE_EQ(time(Side::bottom, 1.0, -1.25, g), 4.0 / 3.0);  // 3 = 1.25 t + 0.75 t^2
+  EXPECT_DOUBLE_EQ(time(Side::top, 1.0, 1.25, g), 4.0 / 3.0);
+  EXPECT_EQ(time(Side::bottom, 1.0, 1.25, g), never);
+  EXPECT_DOUBLE_EQ(time(Side::right, 0.5, 1.0, g), 4.0);
+  EXPECT_EQ(time(Side::left, 0.5, 1.0, g), never);
+  EXPECT_EQ(time(Side::left, 0.0, 1.0, g), never);
+  EXPECT_DOUBLE_EQ(time(Side::left, 0.0, 1.0, {1.0, 0.0}), 2.0);
+  EXPECT_EQ(time(Side::right, 0.0, 1.0, {1.0, 0.0}), never);
+  EXPECT_DOUBLE_EQ(time(Side::top, 0.0, 2.0, 0.0), 1.5);
+}
+
+// It takes a disk that touches it, wherever that moves.
+TEST(SideTime, OfASinkIsNowWhereADiskTouchesIt) {
+  Domain box = test::box_of(8.0, 12.0);
+  box.sides[1] = SideKind::sink;
+  const auto time = [&](double x, double vx) {
+    return side_time({0.25, x, 5.0, vx, 0.0}, Side::right, 1.0, box, 0.0, 9.0);
+  };
+  EXPECT_EQ(time(7.0, -1.0), 0.25);
+  EXPECT_EQ(time(7.5, -1.0), 0.25);
+  EXPECT_EQ(time(6.5, -1.0), never);
+  EXPECT_EQ(time(6.5, 1.0), 0.75);
+  box.sides[1] = SideKind::wall;
+  EXPECT_EQ(time(7.0, -1.0), never);
+}
+
+// In a box 4 high and wide a disk of radius 0.5 flies away from the nearest image of another one, 1.5 away along each
+// axis, and into the image behind it, 2.5 away.
+TEST(TimeToContact, IsThatOfTheImageBehindTheNearest) {
+  const Domain box = test::box_of(4.0, 4.0, true, true);
+  const auto time = [&](double dx, double dy, double vx, double vy) {
+    return collision_time({0.0, 0.5, 0.5, 0.0, 0.0}, {0.0, 0.5 + dx, 0.5 + dy, vx, vy}, 1.0, box, 0.0, 9.0);
+  };
+  EXPECT_DOUBLE_EQ(time(1.5, 0.0, 1.0, 0.0), 1.5);
+  EXPECT_DOUBLE_EQ(time(-1.5, 0.0, -1.0, 0.0), 1.5);
+  EXPECT_DOUBLE_EQ(time(0.0, 1.5, 0.0, 1.0), 1.5);
+  EXPECT_DOUBLE_EQ(time(0.0, -1.5, 0.0, -1.0), 1.5);
+  const double diagonal = 2.5 - std::sqrt(0.5);
+  EXPECT_NEAR(time(1.5, 1.5, 1.0, 1.0), diagonal, 1e-14);
+  EXPECT_NEAR(time(-1.5, 1.5, -1.0, 1.0), diagonal, 1e-14);
+}
+
+// Images above slide by the jump: the one above the nearest is met where it will be.
+TEST(TimeToContact, InAFlowIsThatOfTheImageThatMoves) {
+  Domain box = test::box_of(40.0, 4.0, true, true);
+  box.shear.rate = 0.25;
+  box.shear.jump = 1.0;
+  box.shear.offset = -1.5;
+  // Up by 2.5 along y in time 1.5 until contact; the image below comes from -offset, at -jump, and is met head on.
+  const double t = collision_time({0.0, 10.0, 0.5, 0.0, 0.0}, {0.0, 8.5, 2.0, 1.0, 1.0}, 1.0, box, 0.0, 9.0);
+  EXPECT_DOUBLE_EQ(t, 1.5);
+  const double back = collision_time({0.0, 10.0, 3.5, 0.0, 0.0}, {0.0, 11.5, 2.0, -1.0, -1.0}, 1.0, box, 0.0, 9.0);
+  EXPECT_DOUBLE_EQ(back, 1.5);
+}
+
+}  // namespace
+}  // namespace carom
