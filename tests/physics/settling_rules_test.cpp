@@ -1,0 +1,374 @@
+// The rules of disks that come to rest, contact by contact: what counts as a support, what overlap a loaded contact
+// keeps, how others are pushed apart, and what supports of walls that move do.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "core/disks/obstacle_cells.hpp"
+#include "core/physics/impact_tally.hpp"
+#include "core/physics/push_apart.hpp"
+#include "core/physics/resting.hpp"
+#include "core/physics/support_solver.hpp"
+#include "core/step/step_rounds.hpp"
+#include "tests/support/disks_by_hand.hpp"
+
+namespace carom {
+namespace {
+
+constexpr double g = 2.0;
+constexpr double dt = 0.01;
+
+// A box 20 by 10 with walls of restitution 0.5, disks of 0.5 too.
+StepRules settling_rules() {
+  StepRules rules{test::box_of(20.0, 10.0), g, 0.5, dt, true};
+  rules.box.restitutions.fill(0.5);
+  return rules;
+}
+
+ContactEvent contact_of(DiskId id1, DiskId id2) {
+  return {0.0, id1, id2, id1, is_wall(id2) ? 0U : id2};
+}
+
+// An approach of up to 64 g dt where a disk of the contact has another one, of up to 2 g dt where it only lies on a
+// wall; two disks alone are none.
+TEST(Support, IsASlowContact) {
+  const StepRules rules = settling_rules();
+  const auto is_support_at = [&](double speed, bool against_wall, bool loaded, bool squeezed) {
+    Disks disks = test::disks_of({{5.0, 1.0, 0.0, -speed, 1.0, 1.0}, {7.0, 1.0, -speed, 0.0, 1.0, 1.0}});
+    const ContactEvent e = contact_of(0, against_wall ? wall_partner(Side::bottom) : 1);
+    return with_view(disks, [&](const auto& d) { return is_support(d, rules, e, loaded, squeezed); });
+  };
+  for (const bool against_wall : {true, false}) {
+    EXPECT_TRUE(is_support_at(63.9 * g * dt, against_wall, false, true));
+    EXPECT_FALSE(is_support_at(64.1 * g * dt, against_wall, false, true));
+    EXPECT_TRUE(is_support_at(1e3 * g * dt, against_wall, true, true));
+    EXPECT_EQ(is_support_at(1.9 * g * dt, against_wall, false, false), against_wall);
+    EXPECT_FALSE(is_support_at(2.1 * g * dt, against_wall, false, false));
+    EXPECT_FALSE(is_support_at(2.1 * g * dt, against_wall, true, false));
+  }
+}
+
+// Off the line along x or y too: the approach is along the line of centres, per its length.
+TEST(Support, AsksForTheSpeedAlongTheLineOfCentres) {
+  const StepRules rules = settling_rules();
+  for (const double factor : {63.9, 64.1}) {
+    const double speed = factor * g * dt;
+    Disks disks = test::disks_of({{5.0, 5.0, 0.0, 0.0, 1.0, 1.0}, {6.2, 6.6, -0.6 * speed, -0.8 * speed, 1.0, 1.0}});
+    EXPECT_EQ(with_view(disks, [&](const auto& d) { return is_support(d, rules, contact_of(0, 1), false, true); }),
+              factor < 64.0);
+  }
+}
+
+// A wall without loss lets a disk bounce for ever; a thermal one draws.
+TEST(Support, IsNoElasticWallAndNoThermalOne) {
+  StepRules rules = settling_rules();
+  Disks disks = test::disks_of({{5.0, 1.0, 0.0, 0.0, 1.0, 1.0}});
+  const ContactEvent e = contact_of(0, wall_partner(Side::bottom));
+  const auto support = [&](bool loaded, bool squeezed) {
+    return with_view(disks, [&](const auto& d) { return is_support(d, rules, e, loaded, squeezed); });
+  };
+  EXPECT_TRUE(support(false, false));
+  rules.box.restitutions.fill(1.0);
+  EXPECT_FALSE(support(false, false));
+  rules.box.restitutions.fill(0.5);
+  rules.box.temperatures[2] = 1.0;
+  EXPECT_FALSE(support(false, false));
+  EXPECT_FALSE(support(true, true));
+}
+
+// All that dissipate are solved together where a disk has two contacts, however fast they are.
+TEST(Support, IsSolvedWithAllCrowdedContactsThatDissipate) {
+  StepRules rules = settling_rules();
+  Disks disks = test::disks_of({{5.0, 1.0, 0.0, 0.0, 1.0, 1.0}, {7.0, 1.0, -1e4 * g * dt, 0.0, 1.0, 1.0}});
+  const auto solved = [&](bool squeezed) {
+    return with_view(disks, [&](const auto& d) { return is_solved(d, rules, contact_of(0, 1), false, squeezed); });
+  };
+  EXPECT_TRUE(solved(true));
+  EXPECT_FALSE(solved(false));
+  rules.restitution = 1.0;
+  EXPECT_FALSE(solved(true));
+}
+
+// 64 g dt^2, and half a percent of the sum of the radii (of the radius, at a wall) at most.
+TEST(Slack, IsThatOfAFewSteps) {
+  StepRules rules = settling_rules();
+  Disks disks = test::disks_of({{5.0, 3.0, 0.0, 0.0, 3.0, 1.0}, {9.0, 3.0, 0.0, 0.0, 1.0, 1.0}});
+  const auto slack = [&](DiskId other) {
+    return with_view(disks, [&](const auto& d) { return slack_of(d, rules, contact_of(0, other)); });
+  };
+  EXPECT_DOUBLE_EQ(slack(1), 64.0 * g * dt * dt);
+  EXPECT_DOUBLE_EQ(slack(wall_partner(Side::bottom)), 64.0 * g * dt * dt);
+  rules.dt = 0.1;
+  EXPECT_DOUBLE_EQ(slack(1), 0.005 * 4.0);
+  EXPECT_DOUBLE_EQ(slack(wall_partner(Side::bottom)), 0.005 * 3.0);
+}
+
+// Beyond each side by 0.3: a loaded contact keeps its slack, any other ends at the wall.
+TEST(PushApart, PutsADiskBackToAWall) {
+  const Domain box = test::box_of(20.0, 10.0);
+  for (const Side side : all_sides) {
+    const Vec2 n = inward_normal(side);
+    const bool along_x = n.x != 0.0;
+    for (const double slack : {0.0, 0.1, 0.4}) {
+      const double there = touching_coordinate(side, 1.0, box) - 0.3 * (n.x + n.y);
+      Disks disks = test::disks_of({{along_x ? there : 5.0, along_x ? 5.0 : there, 0.5, 0.25, 1.0, 1.0}});
+      with_view(disks, [&](const auto& d) { push_apart(d, box, contact_of(0, wall_partner(side)), slack); });
+      EXPECT_NEAR(reach_beyond(side, disks.x[0], disks.y[0], 1.0, box), std::min(slack, 0.3), 1e-14);
+      EXPECT_EQ(disks.vx[0], 0.5);
+      EXPECT_EQ(along_x ? disks.y[0] : disks.x[0], 5.0);
+    }
+  }
+}
+
+// By mass, so that the centre of mass stays.
+TEST(PushApart, PartsTwoDisksByMass) {
+  const Domain box = test::box_of(20.0, 10.0);
+  for (const double slack : {0.0, 0.05}) {
+    Disks disks = test::disks_of({{5.0, 5.0, 0.0, 0.0, 1.0, 1.0}, {6.08, 6.44, 0.0, 0.0, 1.0, 3.0}});  // 0.2 overlap
+    with_view(disks, [&](const auto& d) { push_apart(d, box, contact_of(0, 1), slack); });
+    const double pushed = 0.2 - slack;
+    EXPECT_NEAR(disks.x[0], 5.0 - 0.75 * 0.6 * pushed, 1e-14);
+    EXPECT_NEAR(disks.y[0], 5.0 - 0.75 * 0.8 * pushed, 1e-14);
+    EXPECT_NEAR(disks.x[1], 6.08 + 0.25 * 0.6 * pushed, 1e-14);
+    EXPECT_NEAR(disks.y[1], 6.44 + 0.25 * 0.8 * pushed, 1e-14);
+  }
+  Disks one_place = test::disks_of({{5.0, 5.0, 0.0, 0.0, 1.0, 1.0}, {5.0, 5.0, 0.0, 0.0, 1.0, 1.0}});
+  with_view(one_place, [&](const auto& d) { push_apart(d, box, contact_of(0, 1), 0.0); });
+  EXPECT_EQ(one_place.x[0], 4.0);
+  EXPECT_EQ(one_place.x[1], 6.0);
+}
+
+// Walls and fixed disks do not give way: a disk that is pushed into one ends a thousandth of its radius in it.
+TEST(PushApart, LeavesNoDiskInAWall) {
+  Domain box = test::box_of(20.0, 10.0);
+  const ObstacleCells cells({{12.5, 5.0, 0.0, 0.0, 0.5, 1.0}}, {}, box);
+  box.obstacles = &cells;
+  // Both ends of a pair, at the wall to the left and at the fixed disk.
+  for (const bool second : {false, true}) {
+    Disks left =
+        test::disks_of({{second ? 2.6 : 1.0, 5.0, 0.0, 0.0, 1.0, 1.0}, {second ? 1.0 : 2.6, 5.0, 0.0, 0.0, 1.0, 1.0}});
+    with_view(left, [&](const auto& d) { push_apart(d, box, contact_of(0, 1), 0.0); });
+    EXPECT_NEAR(left.x[second ? 1 : 0], 1.0 - 1e-3, 1e-14);
+    EXPECT_NEAR(left.x[second ? 0 : 1], 2.8, 1e-14);
+    Disks right = test::disks_of(
+        {{second ? 11.0 : 9.4, 5.0, 0.0, 0.0, 1.0, 1.0}, {second ? 9.4 : 11.0, 5.0, 0.0, 0.0, 1.0, 1.0}});
+    with_view(right, [&](const auto& d) { push_apart(d, box, contact_of(0, 1), 0.0); });
+    EXPECT_NEAR(right.x[second ? 0 : 1], 11.0 + 1e-3, 1e-14);
+  }
+}
+
+// Out of a fixed disk along the line of centres.
+TEST(PushApart, PutsADiskBackToAnObstacle) {
+  Domain box = test::box_of(20.0, 10.0);
+  const ObstacleCells cells({{5.0, 5.0, 0.0, 0.0, 1.0, 1.0}}, {}, box);
+  box.obstacles = &cells;
+  for (const double slack : {0.0, 0.1, 0.4}) {
+    Disks disks = test::disks_of({{5.0 + 0.6 * 1.7, 5.0 + 0.8 * 1.7, 0.0, 0.0, 1.0, 1.0}});
+    with_view(disks, [&](const auto& d) { push_apart(d, box, contact_of(0, obstacle_partner(0)), slack); });
+    const double distance = 2.0 - std::min(slack, 0.3);
+    EXPECT_NEAR(disks.x[0], 5.0 + 0.6 * distance, 1e-14);
+    EXPECT_NEAR(disks.y[0], 5.0 + 0.8 * distance, 1e-14);
+  }
+}
+
+// Deeper than a share of the sum of the radii, and slack besides; a disk that keep_inside has left in a wall by that
+// share is not deep, whatever rounding says.
+TEST(PushApart, TellsWhatIsDeep) {
+  const Domain box = test::box_of(20.0, 10.0);
+  const auto deep = [&](const std::vector<Disk>& list, DiskId other, double slack) {
+    Disks disks = test::disks_of(list);
+    return with_view(disks, [&](const auto& d) { return is_deep(d, box, contact_of(0, other), 0.01, slack); });
+  };
+  const auto pair = [](double overlap) {
+    return std::vector<Disk>{{5.0, 5.0, 0.0, 0.0, 1.0, 1.0}, {8.0 - overlap, 5.0, 0.0, 0.0, 2.0, 1.0}};
+  };
+  EXPECT_TRUE(deep(pair(0.031), 1, 0.0));
+  EXPECT_FALSE(deep(pair(0.029), 1, 0.0));
+  EXPECT_TRUE(deep(pair(0.131), 1, 0.1));
+  EXPECT_FALSE(deep(pair(0.129), 1, 0.1));
+  const auto at_floor = [](double beyond) { return std::vector<Disk>{{5.0, 2.0 - beyond, 0.0, 0.0, 2.0, 1.0}}; };
+  const DiskId floor = wall_partner(Side::bottom);
+  EXPECT_TRUE(deep(at_floor(0.0201), floor, 0.0));
+  EXPECT_TRUE(deep(at_floor(0.02 * (1.0 - 1e-9)), floor, 0.0));  // rounding does not decide
+  EXPECT_FALSE(deep(at_floor(0.0199), floor, 0.0));
+  EXPECT_TRUE(deep(at_floor(0.121), floor, 0.1));
+  EXPECT_FALSE(deep(at_floor(0.119), floor, 0.1));
+}
+
+// Sweeps go on for the deep ones: for a tenth of a percent at first, for half a percent after 32 sweeps or where the
+// contact bears load.
+TEST(PushApart, GoesOnForWhatIsDeepEnough) {
+  EXPECT_EQ(overlap_to_push(31, false), 1e-3);
+  EXPECT_EQ(overlap_to_push(32, false), 5e-3);
+  EXPECT_EQ(overlap_to_push(1, true), 5e-3);
+  StepRules rules = settling_rules();
+  EXPECT_EQ(push_sweeps(rules), 256);
+  rules.settles = false;
+  EXPECT_EQ(push_sweeps(rules), 4);
+}
+
+// The first sweep pushes all contacts, later ones those that are crowded and deep.
+TEST(PushApart, TakesCrowdedContactsAgain) {
+  const StepRules rules = settling_rules();
+  const auto pushed = [&](int sweep, bool crowded, double overlap) {
+    Disks disks = test::disks_of({{5.0, 5.0, 0.0, 0.0, 1.0, 1.0}, {7.0 - overlap, 5.0, 0.0, 0.0, 1.0, 1.0}});
+    return with_view(disks,
+                     [&](const auto& d) { return push_in_sweep(d, rules, contact_of(0, 1), sweep, crowded, false); });
+  };
+  EXPECT_TRUE(pushed(0, false, 1e-6));
+  EXPECT_FALSE(pushed(1, false, 0.1));
+  EXPECT_TRUE(pushed(1, true, 0.1));
+  EXPECT_FALSE(pushed(1, true, 1e-3));
+}
+
+// A disk that bears on a wall, or on something fixed, and was lifted off by less than the slack is laid back in the
+// first sweep; one further away is not.
+TEST(PushApart, LaysALoadedDiskBack) {
+  StepRules rules = settling_rules();
+  const ObstacleCells cells({{5.0, 5.0, 0.0, 0.0, 1.0, 0.5}}, {}, rules.box);
+  rules.box.obstacles = &cells;
+  const double slack = 64.0 * g * dt * dt;
+  ASSERT_GT(0.02, slack);
+  const auto place_after = [&](double x, double y, DiskId other, int sweep, bool loaded) {
+    Disks disks = test::disks_of({{x, y, 0.0, 0.0, 3.0, 1.0}});
+    with_view(disks, [&](const auto& d) { push_in_sweep(d, rules, contact_of(0, other), sweep, true, loaded); });
+    return Vec2{disks.x[0], disks.y[0]};
+  };
+  const DiskId floor = wall_partner(Side::bottom);
+  for (const double share : {0.9, 1.1}) {
+    const double off = share * slack;
+    const bool back = share < 1.0;
+    EXPECT_EQ(place_after(15.0, 3.0 + off, floor, 0, true).y, back ? 3.0 : 3.0 + off);
+    EXPECT_EQ(place_after(15.0, 3.0 + off, floor, 0, false).y, 3.0 + off);
+    EXPECT_EQ(place_after(15.0, 3.0 + off, floor, 1, true).y, 3.0 + off);
+    const Vec2 above = place_after(5.0 + 0.6 * (4.0 + off), 5.0 + 0.8 * (4.0 + off), obstacle_partner(0), 0, true);
+    EXPECT_NEAR(std::hypot(above.x - 5.0, above.y - 5.0), back ? 4.0 : 4.0 + off, 1e-14);
+  }
+}
+
+// A floor that comes up at 0.5 stops a disk that falls at 2 at 0.5, with the impulse m (2 + 0.5), and does work by it;
+// a fixed wall at 0.
+TEST(WallSupport, StopsADiskInTheFrameOfTheWall) {
+  for (const Side side : all_sides) {
+    for (const double wall_speed : {0.0, 0.5}) {
+      StepRules rules = settling_rules();
+      const auto s = static_cast<std::size_t>(side);
+      if (wall_speed > 0.0) {
+        rules.box.motions[s] = {SideMotion::Kind::steady, 0.0, wall_speed};
+        rules.box.step_walls(0.0, 1e-3);
+      }
+      const Vec2 n = inward_normal(side);
+      Disks disks = test::disks_of({{5.0, 5.0, -2.0 * n.x, -2.0 * n.y, 1.0, 3.0}});
+      SupportSet set;
+      set.contact.resize(1), set.impulse.resize(1), set.counted.resize(1), set.contact_distance.resize(1);
+      with_view(disks, [&](const auto& d) { set_support(set, 0, d, rules, contact_of(0, wall_partner(side)), 0.0); });
+      set.v = {{disks.vx[0], disks.vy[0]}};
+      relax(set.v.data(), set.contact[0], set.impulse[0]);
+      EXPECT_NEAR(set.v[0].x, wall_speed * n.x, 1e-12);
+      EXPECT_NEAR(set.v[0].y, wall_speed * n.y, 1e-12);
+      EXPECT_NEAR(set.impulse[0], 3.0 * (2.0 + wall_speed), 1e-12);
+      ImpactTally tally;
+      tally.add_load(wall_partner(side), set, 0, rules.box);
+      EXPECT_NEAR(tally.wall_impulse[s].value(), 3.0 * (2.0 + wall_speed), 1e-12);
+      EXPECT_EQ(tally.wall_loads, 1U);
+      if (wall_speed == 0.0) continue;
+      EXPECT_NEAR(tally.side_energy[s].value(), 3.0 * 2.5 * 0.5, 1e-12);
+    }
+  }
+}
+
+// An inner wall that comes at (-0.3, 0.4), whose normal is (-3, 4) / 5: at 0.5 along it. It gives a disk the momentum
+// of the impulse, and the work of that at its velocity.
+TEST(WallSupport, OfAnInnerWallGivesMomentumAndWork) {
+  StepRules rules = settling_rules();
+  const Obstacle slope{1.0, 2.0, 4.0, 3.0, 0.0, 0.5, 0, ObstacleKind::wall, true};
+  WallMotion motion;
+  motion.pace = {SideMotion::Kind::steady, 0.0, 1.0};
+  motion.along = {-0.3, 0.4};
+  rules.box.inner_walls_move = true;
+  ObstacleCells cells({slope}, {motion}, rules.box);
+  rules.box.step_walls(0.0, 1e-3);
+  cells.follow(0.0, 1e-3);
+  rules.box.obstacles = &cells;
+  Disks disks = test::disks_of({{3.0 - 0.6, 3.5 + 0.8, 1.2, -1.6, 1.0, 3.0}});
+  SupportSet set;
+  set.contact.resize(1), set.impulse.resize(1), set.counted.resize(1), set.contact_distance.resize(1);
+  with_view(disks, [&](const auto& d) { set_support(set, 0, d, rules, contact_of(0, obstacle_partner(0)), 0.0); });
+  set.v = {{disks.vx[0], disks.vy[0]}};
+  relax(set.v.data(), set.contact[0], set.impulse[0]);
+  const double impulse = 3.0 * (2.0 + 0.5);
+  EXPECT_NEAR(set.impulse[0], impulse, 1e-11);
+  EXPECT_NEAR(set.v[0].x, -0.3, 1e-11);
+  EXPECT_NEAR(set.v[0].y, 0.4, 1e-11);
+  ImpactTally tally;
+  tally.add_load(obstacle_partner(0), set, 0, rules.box);
+  ASSERT_EQ(tally.pushes.size(), 3U);
+  EXPECT_NEAR(tally.pushes[0].value(), 0.5 * impulse, 1e-11);
+  EXPECT_NEAR(tally.pushes[1].value(), -0.6 * impulse, 1e-11);
+  EXPECT_NEAR(tally.pushes[2].value(), 0.8 * impulse, 1e-11);
+  Counters counters;
+  tally.count_into(counters);
+  EXPECT_NEAR(counters.wall_work, 0.5 * impulse, 1e-11);
+  EXPECT_NEAR(counters.wall_push[0], -0.6 * impulse, 1e-11);
+}
+
+// A load acts all through the step: half its impulse times dt over the mass is the way. What the step before found is
+// where the solver begins, and later rounds count what is new.
+TEST(Load, ActsAllThroughTheStep) {
+  StepRules rules = settling_rules();
+  Disks disks = test::disks_of({{5.0, 5.0, 0.0, 0.0, 1.0, 1.0}, {7.0, 5.0, 0.0, 0.0, 1.0, 4.0}});
+  SupportSet set;
+  set.contact.resize(1), set.impulse.resize(1), set.counted.resize(1), set.contact_distance.resize(1);
+  for (const int round : {0, 1}) {
+    rules.round = round;
+    with_view(disks, [&](const auto& d) { set_support(set, 0, d, rules, contact_of(0, 1), 6.0); });
+    EXPECT_DOUBLE_EQ(set.impulse[0], 6.0 * dt);
+    set.impulse[0] += 0.25;
+    EXPECT_NEAR(borne(set, 0), (round == 0 ? 6.0 * dt + 0.25 : 0.25) * 2.0, 1e-15);
+  }
+  with_view(disks, [&](const auto& d) { shift_by_load(d, set.contact[0], 8.0, dt); });
+  EXPECT_NEAR(disks.x[0], 5.0 - 0.5 * 8.0 * dt, 1e-15);
+  EXPECT_NEAR(disks.x[1], 7.0 + 0.5 * 8.0 * dt / 4.0, 1e-15);
+}
+
+// A disk displaced by half a percent of its radius is asked again, one that lies one percent in something is pressed.
+TEST(Rounds, GoOnForDisksThatAreDisplacedAndPressed) {
+  Domain box = test::box_of(20.0, 10.0);
+  const ObstacleCells cells({{12.0, 5.0, 0.0, 0.0, 1.0, 1.0}}, {}, box);
+  box.obstacles = &cells;
+  const auto displaced_by = [&](double way) {
+    Disks disks = test::disks_of({{5.0 + 0.6 * way, 5.0 + 0.8 * way, 0.0, 0.0, 2.0, 1.0}});
+    return with_view(disks, [&](const auto& d) { return is_displaced(d, box, 0, 5.0, 5.0); });
+  };
+  EXPECT_TRUE(displaced_by(0.0101));
+  EXPECT_FALSE(displaced_by(0.0099));
+  const auto in_wall = [&](double x, double y) {
+    Disks disks = test::disks_of({{x, y, 0.0, 0.0, 2.0, 1.0}});
+    return with_view(disks, [&](const auto& d) { return is_pressed_into_wall(d, box, 0); });
+  };
+  EXPECT_TRUE(in_wall(2.0 - 0.021, 5.0));
+  EXPECT_FALSE(in_wall(2.0 - 0.019, 5.0));
+  EXPECT_TRUE(in_wall(9.0 + 0.021, 5.0));
+  EXPECT_FALSE(in_wall(9.0 + 0.019, 5.0));
+  const auto pressed = [&](double overlap) {
+    Disks disks = test::disks_of({{5.0, 5.0, 0.0, 0.0, 1.0, 1.0}, {8.0 - overlap, 5.0, 0.0, 0.0, 2.0, 1.0}});
+    return with_view(disks, [&](const auto& d) { return are_pressed(d, box, 0, 1); });
+  };
+  EXPECT_TRUE(pressed(0.031));
+  EXPECT_FALSE(pressed(0.029));
+}
+
+// Disks in one place bear on each other along x, the way in which they are parted.
+TEST(Load, OfCoincidentDisksHasADirection) {
+  const StepRules rules = settling_rules();
+  Disks disks = test::disks_of({{5.0, 5.0, 1.0, 0.0, 1.0, 2.0}, {5.0, 5.0, -1.0, 0.0, 1.0, 2.0}});
+  const Support s = with_view(disks, [&](const auto& d) { return make_support(d, rules, contact_of(0, 1)); });
+  EXPECT_EQ(s.nx, 1.0);
+  EXPECT_EQ(s.ny, 0.0);
+  EXPECT_EQ(s.x1, 0.5);
+  EXPECT_EQ(s.effective, 1.0);
+}
+
+}  // namespace
+}  // namespace carom
