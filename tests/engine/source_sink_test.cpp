@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include "core/measure/invariants.hpp"
 #include "core/physics/boundary.hpp"
@@ -354,6 +355,29 @@ TEST(Emission, DisksOfAllSourcesWait) {
   State state = test::state_of(s, {});
   emit_due(s, state, 3.0, 30, [](const Disk&) { return false; });
   EXPECT_EQ(state.counters.waiting, 3U + 6U);
+}
+
+// A region may reach closer to a wall than a radius: what is drawn there waits, at each of the four walls alike.
+TEST(Emission, FromARegionIsWithinAllWalls) {
+  Scene s = test::scene_of(Method::pairwise, 6.0, 4.0, 0.1, 6.0);
+  const auto anywhere = [](const Disk&) { return true; };
+  for (const auto& [low, high] :
+       {std::pair{Vec2{0.0, 1.9}, Vec2{0.3, 2.1}}, std::pair{Vec2{5.7, 1.9}, Vec2{6.0, 2.1}},
+        std::pair{Vec2{2.9, 0.0}, Vec2{3.1, 0.3}}, std::pair{Vec2{2.9, 3.7}, Vec2{3.1, 4.0}}}) {
+    Source source = source_of(1.0, 0.25);
+    source.region_low = low;
+    source.region_high = high;
+    s.sources = {source};
+    State state = test::state_of(s, {});
+    for (Count step = 1; step <= 100; ++step) emit_due(s, state, static_cast<double>(step), step, anywhere);
+    EXPECT_GE(state.disks.size(), 5U);
+    for (std::size_t i = 0; i < state.disks.size(); ++i) {
+      EXPECT_GE(state.disks.x[i], 0.25);
+      EXPECT_LE(state.disks.x[i], 5.75);
+      EXPECT_GE(state.disks.y[i], 0.25);
+      EXPECT_LE(state.disks.y[i], 3.75);
+    }
+  }
 }
 
 }  // namespace
