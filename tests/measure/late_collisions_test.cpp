@@ -101,5 +101,19 @@ t_end = 0.8
   }
 }
 
+// From two late ones on, where they are more than their share.
+TEST(LateCollisions, TwoAreToldOf) {
+  const Scene scene = disks_on_a_line({{"run.method", "pairwise"}});
+  State state = initial_state(scene);
+  state.counters.collisions = 8;
+  state.validity.inaccurate = 2;
+  EXPECT_THAT(few_inaccurate_warnings(scene, state), ElementsAre(HasSubstr("2 of 8 collisions were seen")));
+  state.validity.inaccurate = 1;
+  EXPECT_THAT(few_inaccurate_warnings(scene, state), IsEmpty());
+  state.validity.inaccurate = 2;
+  state.validity.inaccurate_told = true;
+  EXPECT_THAT(few_inaccurate_warnings(scene, state), IsEmpty());
+}
+
 }  // namespace
 }  // namespace carom
