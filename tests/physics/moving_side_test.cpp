@@ -276,5 +276,22 @@ TEST(LongMovingSide, StopsWhereItWouldCrushDisks) {
   }
 }
 
+// A disk that rests on a side which presses it, at the same speed, touches now: else it would sink in.
+TEST(SwingingSide, IsTouchedByADiskThatItPresses) {
+  SwingSearch search{2.0};
+  EXPECT_FALSE(search.go_on({0.0, 0.0, 1.0}, 1.0, 4.0));
+  EXPECT_TRUE(search.go_on({0.0, 0.0, -1.0}, 1.0, 4.0));
+}
+
+// However long after the window's start, in periods, a search that waits for a disk that has just left goes on.
+TEST(SwingingSide, IsSearchedForThoughTimeIsCoarse) {
+  for (const double t : {0.0, 1.0, 1e6, 1e12}) {
+    SwingSearch search{1.0};
+    search.t = t;
+    ASSERT_TRUE(search.go_on({0.0, -1e-30, 4.0}, 1.0, 4.0));
+    EXPECT_GT(search.t, t);
+  }
+}
+
 }  // namespace
 }  // namespace carom

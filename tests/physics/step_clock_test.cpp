@@ -94,5 +94,21 @@ TEST(Parts, AbsurdStepsAreRefused) {
   }
 }
 
+// Within 1e-9 of a whole number of steps it is that number, and the last one is full; further off there is one more, or
+// the last one is short.
+TEST(StepClock, AQuotientIsWholeWithinABillionth) {
+  for (const double off : {-9e-10, 9e-10}) {
+    const StepClock whole = make_step_clock(0.5, 50.0 * (1.0 + off));
+    EXPECT_EQ(whole.steps, 100U);
+    EXPECT_EQ(whole.length(99), 0.5);
+  }
+  const StepClock more = make_step_clock(0.5, 50.0 * (1.0 + 1.1e-9));
+  EXPECT_EQ(more.steps, 101U);
+  EXPECT_NEAR(more.length(100), 5.5e-8, 1e-12);
+  const StepClock less = make_step_clock(0.5, 50.0 * (1.0 - 1.1e-9));
+  EXPECT_EQ(less.steps, 100U);
+  EXPECT_LT(less.length(99), 0.5);
+}
+
 }  // namespace
 }  // namespace carom
