@@ -10,6 +10,7 @@
 
 #include "core/disks/obstacle_cells.hpp"
 #include "core/physics/exact_path.hpp"
+#include "core/physics/wall_overlap.hpp"
 #include "tests/support/disks_by_hand.hpp"
 
 namespace carom {
@@ -131,6 +132,27 @@ TEST(Joint, WallsOfOtherVelocitiesHideNothing) {
     ObstacleGap side = gap_to(floor_piece, 5.0, 5.9, 1.0, box);
     side.velocity = velocity;
     EXPECT_EQ(hides(side, false, end, 1.0, box), velocity.x == 0.0 && velocity.y == 0.0);
+  }
+}
+
+// What reaches into a fixed disk is as deep as the gap says, over the radius; and what lies in a wall where a sink is
+// an opening in it is about to be taken, and lies in nothing.
+TEST(WallOverlap, IsOfWallsAndObstaclesButNotInAnOpening) {
+  Domain box = test::box_of(20.0, 10.0);
+  Obstacle sink{2.0, 0.0, 6.0, 0.0, 0.0, 1.0, 1, ObstacleKind::sink};
+  const ObstacleCells cells({sink, {15.0, 5.0, 0.0, 0.0, 1.0}}, {}, box);
+  box.obstacles = &cells;
+  const auto deepest = [&](double x, double y) {
+    Overlap overlap;
+    see_wall_overlap(x, y, 2.0, 7, box, overlap);
+    return overlap;
+  };
+  EXPECT_EQ(deepest(5.0, 1.5).size, 0.0);
+  EXPECT_EQ(deepest(11.0, 1.5).size, 0.25);
+  for (const double in : {0.1, 0.5, 1.5}) {
+    const Overlap found = deepest(12.0 + in, 5.0);
+    EXPECT_NEAR(found.size, in / 2.0, 1e-15);
+    EXPECT_EQ(found.id2, obstacle_partner(1));
   }
 }
 

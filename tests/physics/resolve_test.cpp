@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/disks/obstacle_cells.hpp"
+#include "core/step/rollback_frame.hpp"
 #include "tests/support/disks_by_hand.hpp"
 
 namespace carom {
@@ -130,6 +131,25 @@ TEST(SeeShear, CountsMomentumThatGoesAlongY) {
     see_shear(rough, r, rows, 3.0, true, shear);
     EXPECT_DOUBLE_EQ(rough.shear, 0.8 * 3.0);
   }
+}
+
+// A frame of rollback leaves no disk in a wall or in something fixed, though it moves away and nothing collides.
+TEST(MeetWalls, PushesADiskThatMovesAway) {
+  StepRules rules = rules_of(0.0, 1.0);
+  const ObstacleCells cells({{10.0, 5.0, 0.0, 0.0, 2.0, 1.0}}, {}, rules.box);
+  rules.box.obstacles = &cells;
+  Disks disks = test::disks_of(
+      {{0.9, 5.0, 1.0, 0.0, 1.0, 1.0}, {6.0, 9.2, 0.0, -1.0, 1.0, 1.0}, {10.0, 7.8, 0.0, 1.0, 1.0, 1.0}});
+  ImpactTally tally;
+  Overlap seen;
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    with_view(disks, [&](const auto& d) { meet_walls(d, rules, i, tally, seen); });
+  }
+  EXPECT_EQ(tally.wall_collisions, 0U);
+  EXPECT_EQ(disks.x[0], 1.0);
+  EXPECT_EQ(disks.y[1], 9.0);
+  EXPECT_EQ(disks.y[2], 8.0);
+  EXPECT_EQ(seen.size, 0.0);
 }
 
 }  // namespace

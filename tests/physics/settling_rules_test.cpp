@@ -370,5 +370,24 @@ TEST(Load, OfCoincidentDisksHasADirection) {
   EXPECT_EQ(s.effective, 1.0);
 }
 
+// Parts of a step are tallied apart: what supports bore counts where nothing collided, too.
+TEST(Load, CountsWhereNothingCollides) {
+  const StepRules rules = settling_rules();
+  Disks disks = test::disks_of({{5.0, 1.0, 0.0, 0.0, 1.0, 1.0}, {7.0, 1.0, 0.0, 0.0, 1.0, 1.0}});
+  SupportSet set;
+  set.contact.resize(1), set.impulse.resize(1), set.counted.resize(1), set.contact_distance.resize(1);
+  for (const DiskId other : {DiskId{1}, wall_partner(Side::bottom)}) {
+    with_view(disks, [&](const auto& d) { set_support(set, 0, d, rules, contact_of(0, other), 8.0); });
+    ImpactTally part;
+    part.add_load(other, set, 0, rules.box);
+    ImpactTally all;
+    all.add(part);
+    Counters counters;
+    all.count_into(counters);
+    EXPECT_DOUBLE_EQ(counters.virial, is_wall(other) ? 0.0 : 8.0 * dt * 2.0);
+    EXPECT_DOUBLE_EQ(counters.wall_impulse[2], is_wall(other) ? 8.0 * dt : 0.0);
+  }
+}
+
 }  // namespace
 }  // namespace carom

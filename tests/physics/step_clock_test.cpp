@@ -110,5 +110,13 @@ TEST(StepClock, AQuotientIsWholeWithinABillionth) {
   EXPECT_LT(less.length(99), 0.5);
 }
 
+// The time that disks were there, over a million steps: no further off than one rounding of the sum.
+TEST(CountStep, AddsUpWithoutDrift) {
+  Counters counters;
+  for (int k = 0; k < 1000000; ++k) count_step(counters, 0.1);
+  EXPECT_EQ(counters.steps, 1000000U);
+  EXPECT_NEAR(counters.disk_time, 1e5, 2e-11);
+}
+
 }  // namespace
 }  // namespace carom
