@@ -380,5 +380,19 @@ TEST(Emission, FromARegionIsWithinAllWalls) {
   }
 }
 
+// Where all that have waited find room at once, no more come than the limit.
+TEST(Emission, OfThoseThatWaitedNoMoreComeThanTheLimit) {
+  Scene s = test::scene_of(Method::exact, 30.0, 20.0, 0.1, 9.0);
+  Source source = source_of(1.0, 0.5);
+  source.region_low = {1.0, 1.0};
+  source.region_high = {29.0, 19.0};
+  source.limit = 2;
+  s.sources = {source};
+  State state = test::state_of(s, {});
+  emit_from_source(s, s.box, state, 0, 5, 5, [](const Disk&) { return true; });
+  EXPECT_EQ(state.disks.size(), 2U);
+  EXPECT_EQ(state.counters.waiting, 0U);
+}
+
 }  // namespace
 }  // namespace carom

@@ -106,6 +106,7 @@ TEST(LateCollisions, TwoAreToldOf) {
   const Scene scene = disks_on_a_line({{"run.method", "pairwise"}});
   State state = initial_state(scene);
   state.counters.collisions = 8;
+  state.counters.wall_collisions = 1000;  // which are told of apart
   state.validity.inaccurate = 2;
   EXPECT_THAT(few_inaccurate_warnings(scene, state), ElementsAre(HasSubstr("2 of 8 collisions were seen")));
   state.validity.inaccurate = 1;

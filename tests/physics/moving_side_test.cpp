@@ -151,6 +151,7 @@ TEST(MovingSide, TimeOfContact) {
   EXPECT_DOUBLE_EQ(time_to_approach(0.75, 2.0, -2.0), 0.5);  // 2 t - t^2 = 3 / 4, the first of two
   EXPECT_EQ(time_to_approach(1.25, 2.0, -2.0), HUGE_VAL);
   EXPECT_DOUBLE_EQ(time_to_approach(-1e-17, -1.0, 4.0), 0.5);
+  for (const double acceleration : {-1.0, 0.0, 1.0}) EXPECT_EQ(time_to_approach(-0.5, 4.0, acceleration), 0.0);
 }
 
 TEST(MovingSide, ReflectsInItsFrame) {

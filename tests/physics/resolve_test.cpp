@@ -152,5 +152,15 @@ TEST(MeetWalls, PushesADiskThatMovesAway) {
   EXPECT_EQ(seen.size, 0.0);
 }
 
+// A pair bounces at a distance (F2) where all go back further than to its contact; by a billionth of the frame is
+// rounding.
+TEST(Rollback, TellsAPairThatBouncesAtADistance) {
+  const StepRules rules = rules_of(0.0, 1.0);
+  const ContactEvent e{0.0625, 0, 1, 0, 1};
+  EXPECT_FALSE(is_at_a_distance(rules, e, 0.0625));
+  EXPECT_FALSE(is_at_a_distance(rules, e, 0.0625 + 0.9e-9 * dt));
+  EXPECT_TRUE(is_at_a_distance(rules, e, 0.0625 + 1.1e-9 * dt));
+}
+
 }  // namespace
 }  // namespace carom
