@@ -121,6 +121,44 @@ TEST(Displacement, ALookThatComesTooLateIsADoubt) {
   }
 }
 
+// One disk that flies along x, with a window from 0 to 1 at speed 1 and one from 1 to 1.2 at speed 12.5: a floor that
+// moves has kicked it.
+class KickedDisk : public Engine {
+ public:
+  KickedDisk() { state_.disks = test::disks_of({{0.5, 2.0, 1.0, 0.0}}); }
+  void step() override {
+    begin_ = state_.time;
+    state_.time = begin_ == 0.0 ? 1.0 : 1.2;
+    disks_at(state_.time, state_.disks);
+  }
+  const State& state() const override { return state_; }
+  double disks_at(double t, Disks& out) const override {
+    t = std::max(t, begin_);
+    const double far = 0.5 + std::min(t, 1.0) + 12.5 * std::max(t - 1.0, 0.0);
+    out = test::disks_of({{far < 10.0 ? far : far - 10.0, 2.0, begin_ == 0.0 ? 1.0 : 12.5, 0.0}});
+    return t;
+  }
+  std::vector<DiskContact> contacts() const override { return {}; }
+  const PhaseTimes& phase_times() const override { return times_; }
+  std::vector<std::string> take_warnings() override { return {}; }
+
+ private:
+  double begin_ = 0.0;
+  State state_;
+  PhaseTimes times_;
+};
+
+// The first window is too short a way for a look at its end, the second too long to be taken together with it: the
+// place between the two is known, so there is no doubt.
+TEST(Displacement, TheLastLookMayLieBeforeALongWindow) {
+  Scene scene = test::scene_of(Method::exact, 10.0, 10.0, 0.0, 1.2);
+  test::set_sides(scene.box, SideKind::periodic, SideKind::periodic);
+  KickedDisk engine;
+  const Followed f = follow(engine, scene);
+  EXPECT_NEAR(f.mean.value, 3.5 * 3.5, 1e-9);
+  EXPECT_EQ(f.doubtful, 0U);
+}
+
 // Many disks are not asked for their speed each time: not while none can have come far. That they begin at rest is no
 // reason where gravity or a thermostat sets them going. All move alike or by less than a quarter of the period a step.
 TEST(Displacement, ManyDisksAtRestAreFollowedWhenTheyAreSetGoing) {
