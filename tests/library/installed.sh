@@ -72,17 +72,19 @@ same "-ffast-math" "$(with_pkg_config fast -ffast-math)"
 same "find_package" "$(with_cmake "$work/installed" -DCMAKE_PREFIX_PATH="$prefix")"
 [[ ${3-} != sources ]] || same "add_subdirectory" "$(with_cmake "$part" -DCAROM_SOURCE="$source" -DCAROM_WERROR=ON)"
 
-# The static library, with all that it needs.
-cat >"$work/CMakeLists.txt" <<EOP
+# The static library, with all that it needs, in a project of both languages and in one in C alone.
+for languages in "C CXX" C; do
+    cat >"$work/CMakeLists.txt" <<EOP
 cmake_minimum_required(VERSION 3.25)
-project(static LANGUAGES C CXX)
+project(static LANGUAGES $languages)
 find_package(Carom REQUIRED COMPONENTS static)
 add_executable(hello $source/examples/hello.c)
 target_link_libraries(hello PRIVATE Carom::static)
-set_target_properties(hello PROPERTIES LINKER_LANGUAGE CXX)
 EOP
-configure_and_build "$work" "$work/static" -DCMAKE_PREFIX_PATH="$prefix"
-[[ $("$work/static/hello" | grep '^hash') == "$(sed -n 's/^hello \(.*\) $/\1/p' <<<"$wanted")" ]] || { say "the static library has another hash" && exit 1; }
+    configure_and_build "$work" "$work/static-${languages/ /-}" -DCMAKE_PREFIX_PATH="$prefix"
+    [[ $("$work/static-${languages/ /-}/hello" | grep '^hash') == "$(sed -n 's/^hello \(.*\) $/\1/p' <<<"$wanted")" ]] ||
+        { say "the static library has another hash in $languages" && exit 1; }
+done
 say "static library: the same hash"
 
 # A program that takes the shared library needs none of what Carom is built on, headers or .pc files.
