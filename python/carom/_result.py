@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import operator
 import os
 import pathlib
@@ -135,6 +136,21 @@ class Result:
     def __init__(self, summary: Mapping[str, Any], folder: Optional[str]):
         self.summary = dict(summary)
         self.folder = folder
+
+    @classmethod
+    def load(cls, folder: Union[str, bytes, "os.PathLike[Any]"]) -> "Result":
+        """That of a run that is done, by `carom run`, a sweep or carom.run. Raises SceneError where the folder holds none."""
+        folder = _arguments.path(folder)
+        file = os.path.join(folder, "summary.json")
+        try:
+            with open(file, encoding="utf-8") as text:
+                summary = json.load(text)
+        except (OSError, ValueError) as error:
+            reason = error.strerror if isinstance(error, OSError) else "is no JSON"
+            raise SceneError(f"{file}: {reason}; expected the folder of a run that is done") from None
+        if not isinstance(summary, dict) or "state_hash" not in summary:
+            raise SceneError(f"{file}: has no state_hash; expected the folder of a run that is done")
+        return cls(summary, folder)
 
     hash = property(lambda self: self.summary["state_hash"], doc="16 hexadecimal digits")
 

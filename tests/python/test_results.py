@@ -44,6 +44,18 @@ def test_columns_have_what_the_file_says_of_them(result):
     assert result.series["kinetic"].shape == (9,)
 
 
+def test_a_result_is_opened_again(result, tmp_path):
+    again = carom.Result.load(os.fsencode(result.folder))
+    assert again.summary == result.summary and again.folder == result.folder and repr(again) == repr(result)
+    assert np.array_equal(again.series["kinetic"], result.series["kinetic"]) and again.plots == result.plots
+    with pytest.raises(carom.SceneError, match="summary.json: No such file or directory; expected the folder of a run that is done"):
+        carom.Result.load(tmp_path)
+    for text in ("{", "[]", "{}", "\xff"):
+        (tmp_path / "summary.json").write_text(text, encoding="latin-1")
+        with pytest.raises(carom.SceneError, match="expected the folder of a run that is done"):
+            carom.Result.load(tmp_path)
+
+
 def test_a_scene_starts_from_files_and_frames(result, tmp_path):
     last = result.frames[-1]
     (tmp_path / "speeds.csv").write_text("".join(f"{vx!r},{vy!r}\n" for vx, vy in zip(last.vx.tolist(), last.vy.tolist())))
