@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import os
-
 import numpy as np
+
+from . import _arguments
 
 
 def _velocities3d(frame) -> np.ndarray:
@@ -62,7 +62,10 @@ def gsd_snapshot(frame):
 def write_gsd(path, frames) -> None:
     import gsd.hoomd
 
-    with gsd.hoomd.open(os.fspath(path), "wb") as file:
+    path = _arguments.path(path)
+    with open(path, "ab"):  # says why it cannot be written; gsd would call it a bad file descriptor
+        pass
+    with gsd.hoomd.open(path, "wb") as file:
         for number, frame in enumerate(frames):
             snapshot = gsd_snapshot(frame)
             snapshot.configuration.step = number

@@ -194,6 +194,16 @@ def test_gsd_takes_frames(result, tmp_path):
     assert np.allclose(read.particles.velocity[:, 0], frame.vx)
 
 
+def test_gsd_says_why_a_file_cannot_be_written(result, tmp_path):
+    pytest.importorskip("gsd.hoomd")
+    with pytest.raises(IsADirectoryError):
+        result.frames.to_gsd(tmp_path)
+    with pytest.raises(FileNotFoundError):
+        result.frames.to_gsd(tmp_path / "no folder" / "run.gsd")
+    result.frames.to_gsd(os.fsencode(tmp_path / "run.gsd"))
+    assert (tmp_path / "run.gsd").exists()
+
+
 def test_gsd_has_the_rounds_across_periodic_sides(result, tmp_path):
     """Unwrapped by them, as programs do for displacements, no disk jumps by half the box between two frames."""
     hoomd = pytest.importorskip("gsd.hoomd")
