@@ -38,11 +38,19 @@ constexpr std::array<Setting, 4> mpi_settings{{{"OMPI_MCA_rmaps_base_oversubscri
                                                {"OMPI_MCA_btl_vader_single_copy_mechanism", "none"},
                                                {"OMPI_MCA_odls_base_sigkill_timeout", "1"}}};
 
-// The path of carom-mpi, or that of mpiexec.
-std::string require(const std::string& path) {
-  if (!path.empty() && fs::exists(path)) return path;
+// Of carom-mpi, which lies beside the program.
+std::string path_of_ranks() {
+  std::string path = (fs::read_symlink("/proc/self/exe").parent_path() / "carom-mpi").string();
+  if (fs::exists(path)) return path;
   fail_input("--ranks", "this build of Carom knows one rank only",
              "expected Open MPI, Debian's packages openmpi-bin and libopenmpi-dev, and a build made with it");
+}
+
+// Where Open MPI is a module, it has to be loaded.
+std::string path_of_mpiexec() {
+  std::string path = find_program("mpiexec");
+  if (!path.empty()) return path;
+  fail_input("--ranks", "there is no mpiexec in PATH", "expected that of Open MPI, Debian's package openmpi-bin");
 }
 
 // Where rank 0 finds the process that started it.
@@ -134,9 +142,9 @@ void check_ranks_of_this_machine(int ranks) {
 
 int start_ranks(int ranks, int argc, const char* const* argv) {
   check_ranks_of_this_machine(ranks);
-  const std::string program = require((fs::read_symlink("/proc/self/exe").parent_path() / "carom-mpi").string());
+  const std::string program = path_of_ranks();
   for (const auto& [name, value] : mpi_settings) setenv(name, value, 0);
-  std::vector<std::string> words{require(find_program("mpiexec")), "-q", "-n", fmt::format("{}", ranks)};
+  std::vector<std::string> words{path_of_mpiexec(), "-q", "-n", fmt::format("{}", ranks)};
   if (geteuid() == 0) words.emplace_back("--allow-run-as-root");
   words.push_back(program);
   words.insert(words.end(), argv + 1, argv + argc);

@@ -32,6 +32,15 @@ TEST_F(RanksRun, LeavesTheFilesOfOneProcess) {
   }
 }
 
+// As where the module of Open MPI is not loaded: this build has its program of several ranks.
+TEST_F(RanksRun, SayWhereMpiexecIsMissing) {
+  const Outcome o = shell("PATH=/nonexistent $C run scene.toml --ranks 2 -o out");
+  EXPECT_EQ(o.status, 2);
+  EXPECT_EQ(o.err,
+            "carom: error: --ranks: there is no mpiexec in PATH; expected that of Open MPI, Debian's package "
+            "openmpi-bin\n");
+}
+
 // The other format, of some disks and of those in a part of the box; with columns of a group that has a
 // name, and with what is measured of disks and of pairs.
 TEST_F(RanksRun, LeavesTheTrajectoryOfOneProcess) {
