@@ -181,12 +181,12 @@ std::vector<std::string> worst_moments(const Scene& scene, const State& state) {
 void check_crushed(const Scene& scene, const State& state) {
   const auto& [deepest, time] = state.validity.crushed;
   if (!(deepest.size > crushed_overlap)) return;
+  const std::string into =
+      is_wall(deepest.id2) ? "the " + wall_name(state, deepest.id2) : fmt::format("disk {}", deepest.id2);
   throw PhysicsError(fmt::format(
-      "a wall that moves leaves no room at t = {}: disk {} reaches {:.2g} % into {} ({}); move it less far, or take "
-      "fewer or smaller disks",
-      time, deepest.id1, 100.0 * deepest.size,
-      is_wall(deepest.id2) ? "the " + wall_name(state, deepest.id2) : fmt::format("disk {}", deepest.id2),
-      moving_walls_text(scene.box, time)));
+      "a wall that moves leaves no room at t = {}, or dt = {:g} is too long: disk {} reaches {:.2g} % into {} ({}); "
+      "use a smaller dt, move it less far, or take fewer or smaller disks",
+      time, scene.run.dt, deepest.id1, 100.0 * deepest.size, into, moving_walls_text(scene.box, time)));
 }
 
 double fastest_speed(const Disks& disks) {

@@ -116,6 +116,22 @@ TEST(LongValidity, TimeSteppingSaysThatWallsAreMetLate) {
   }
 }
 
+// A side that hardly moves is not what presses a disk of a gas into another wall: the step is as likely the reason.
+TEST(Validity, WhereAWallMovesTheStepMayBeTooLongAsWell) {
+  const Scene gas =
+      stability_scene("f02_bounce_at_a_distance", {{"disks.0.count", "300"},
+                                                   {"box.packing_fraction", "0.5"},
+                                                   {"box.left", "\"wall\""},
+                                                   {"box.right", "{ motion = { velocity = [-1e-6, 0] } }"},
+                                                   {"run.t_end", "2"},
+                                                   {"run.method", "pairwise"},
+                                                   {"run.dt", "0.5"}});
+  EXPECT_THAT(
+      warnings_of(gas).back(),
+      AllOf(HasSubstr("a wall that moves leaves no room at t = "), HasSubstr(", or dt = 0.5 is too long: disk "),
+            HasSubstr("; use a smaller dt, move it less far, or take fewer or smaller disks")));
+}
+
 TEST(Validity, BrownianMotionIsNotSentToExact) {
   Scene gas = stability_scene("f02_bounce_at_a_distance", {{"disks.0.count", "300"},
                                                            {"box.packing_fraction", "0.5"},
