@@ -37,8 +37,8 @@ inline constexpr std::array<SeriesColumn, 18> series_columns{{
     {"collisions", true, "", "of two disks, since the start"},
     {"wall_collisions", true, "", "of a disk and a wall, since the start"},
     {"pressure", false, "energy / area",
-     "mean since the row before, from kinetic energy (relative to a shear flow) and collisions; 0 in the first; nan "
-     "likewise. A row in the same window of exact repeats it"},
+     "mean since the row before, from kinetic energy (relative to a shear flow) and collisions, over the area of the "
+     "whole box, fixed disks and all; 0 in the first; nan likewise. A row in the same window of exact repeats it"},
     {"collision_rate", false, "1 / time",
      "collisions a disk takes part in per unit time, mean likewise; of Brownian disks it grows as 1 / sqrt(dt)"},
     {"max_overlap", false, "", "largest overlap of two disks in this frame, over the sum of their radii; 0 if none"},
