@@ -72,6 +72,11 @@ same "-ffast-math" "$(with_pkg_config fast -ffast-math)"
 same "find_package" "$(with_cmake "$work/installed" -DCMAKE_PREFIX_PATH="$prefix")"
 [[ ${3-} != sources ]] || same "add_subdirectory" "$(with_cmake "$part" -DCAROM_SOURCE="$source" -DCAROM_WERROR=ON)"
 
+# Sources in a project that says nothing of optimisation are compiled without, and not in silence.
+[[ $(cmake -S "$source/examples" -B "$work/untyped" -G Ninja -DCAROM_SOURCE="$source" 2>&1) == *"without optimisation"* ]] ||
+    { say "no word of a build without optimisation" && exit 1; }
+say "a build without optimisation: said"
+
 # The static library, with all that it needs, in a project of both languages and in one in C alone.
 for languages in "C CXX" C; do
     cat >"$work/CMakeLists.txt" <<EOP
