@@ -8,7 +8,7 @@ namespace carom {
 enum class Wish {
   nothing,
   checkpoint,  // SIGUSR1: write one and go on
-  stop         // SIGINT, SIGTERM, SIGHUP: write one and stop
+  stop         // SIGINT, SIGTERM, SIGHUP, SIGXCPU (ulimit -t): write one and stop
 };
 
 // From here on the signals above no longer end the process, except a SIGINT after a stop has been requested: it ends

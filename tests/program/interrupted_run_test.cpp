@@ -1,6 +1,9 @@
 // Signals, limits and faults: what the program says, the status it ends with, and that carom resume loses nothing.
 #include <sys/resource.h>
 
+#include <csignal>
+#include <cstring>
+
 #include "io/checkpoint/checkpoint.hpp"
 #include "tests/support/program_support.hpp"
 #include "tests/support/scene_support.hpp"
@@ -98,16 +101,14 @@ TEST_F(InterruptedRun, AWarningThatEndedARunIsNotForgotten) {
 
 TEST_F(InterruptedRun, ASignalStopsWithACheckpoint) {
   write("long.toml", test::busy_scene("pairwise", "checkpoint = \"1 h\"\n"));
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
     fs::remove_all(at("out"));  // or the last round's file would be taken for this one's
     const pid_t run = start({"run", "long.toml", "--t-end", "1e6", "-o", "out", "--quiet"});
     await(at("out/carom-unfinished/series.csv"));
     kill(run, signal);
     EXPECT_EQ(wait_for(run), 4);
     EXPECT_TRUE(fs::exists(at("out/carom-unfinished/checkpoint.carom")));
-    EXPECT_THAT(said(), HasSubstr(std::string("stopped by ") + (signal == SIGINT    ? "SIGINT"
-                                                                : signal == SIGTERM ? "SIGTERM"
-                                                                                    : "SIGHUP")));
+    EXPECT_THAT(said(), HasSubstr(std::string("stopped by SIG") + sigabbrev_np(signal) + " at t = "));
   }
   const Outcome o = carom("run long.toml -o out");
   EXPECT_EQ(o.status, 2);
@@ -161,7 +162,7 @@ using LongInitialState = InitialState;
 
 TEST_F(InitialState, SignalsDoNotWaitForIt) {
   write("slow.toml", slow_growth);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
     const pid_t run = start({"run", "slow.toml", "-o", "out"});
     while (!catches(run, signal) || !catches(run, SIGUSR1)) usleep(1000);
     kill(run, SIGUSR1);
