@@ -28,7 +28,7 @@ def ase_atoms(frame):
                       cell=[*frame.box, 0.0], pbc=[*frame.periodic, False])
     atoms.set_velocities(_velocities3d(frame))
     atoms.new_array("radius", frame.radius)
-    atoms.new_array("id", frame.id)
+    atoms.new_array("id", frame.id.astype(np.int64))  # of unsigned numbers ASE writes no file
     atoms.info["Time"] = frame.t
     return atoms
 

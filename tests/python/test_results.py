@@ -145,6 +145,12 @@ def test_the_viewer_replaces_no_file_unless_told_to(result, tmp_path):
     assert "<canvas" in page.read_text()
 
 
+def test_ase_writes_the_frames_that_it_takes(result, tmp_path):
+    ase_io = pytest.importorskip("ase.io")
+    ase_io.write(tmp_path / "gas.xyz", result.frames.to_ase())
+    assert np.array_equal(ase_io.read(tmp_path / "gas.xyz", index=8).get_array("id"), result.frames[8].id)
+
+
 def test_ase_takes_frames(result):
     ase = pytest.importorskip("ase")
     frames = list(result.frames)
