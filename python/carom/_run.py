@@ -10,7 +10,7 @@ import threading
 from typing import Any, Callable, Iterable, Optional, Sequence
 
 from . import _arguments, _carom
-from ._carom import RunError, SceneError
+from ._carom import PhysicsError, RunError, SceneError
 from ._result import Result
 from ._scene import Scene
 from ._simulation import engine as _engine
@@ -87,7 +87,8 @@ def map(scenes: Iterable[Scene], outs: Optional[Sequence] = None, jobs: Optional
     """Runs every scene by itself on one core, on all cores or on so many jobs at once; the results in the order of scenes.
 
     outs: a folder for each, or None for no files. Processes are begun anew ("spawn"): a script that calls this needs
-    `if __name__ == "__main__":`. Raises what a run raises; Ctrl-C stops all runs, each with a checkpoint in its folder.
+    `if __name__ == "__main__":`. Raises what a run raises, with the number of its scene; Ctrl-C stops all runs, each with a
+    checkpoint in its folder.
     """
     import multiprocessing
     from concurrent.futures import ProcessPoolExecutor
@@ -105,8 +106,13 @@ def map(scenes: Iterable[Scene], outs: Optional[Sequence] = None, jobs: Optional
     spawn = multiprocessing.get_context("spawn")
     stop = spawn.Event()
     with ProcessPoolExecutor(jobs, mp_context=spawn, initializer=_begin_worker, initargs=(stop,)) as pool:
+        results: list = []
         try:
-            return list(pool.map(_run_one, scenes, outs))
+            for result in pool.map(_run_one, scenes, outs):
+                results.append(result)
         except KeyboardInterrupt:
             stop.set()
             raise
+        except (PhysicsError, RunError, SceneError) as error:
+            raise type(error)(f"scenes[{len(results)}]: {error}") from None
+    return results

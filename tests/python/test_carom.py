@@ -379,6 +379,14 @@ def test_a_series_has_the_columns_of_its_file_with_one_row_too(tmp_path):
     assert series["t"].shape == (1,) and series["disks"][0] == 4.0
 
 
+def test_map_says_which_scene_failed():
+    box = {"width": 10.0, "height": 10.0}
+    disks = [{"count": 1, "positions": [[5.0, 5.0]], "velocities": [[1.0, 0.0]], "radius": r, "mass": 1.0} for r in (1.0, 5.0)]
+    free, jammed = (carom.Scene({"box": box, "disks": [d], "run": {"t_end": 1.0}}) for d in disks)
+    with pytest.raises(carom.PhysicsError, match=r"^scenes\[2\]: exact: time stands still"):
+        carom.map([free, free, jammed, free], jobs=2)
+
+
 def test_map_runs_each_by_itself():
     scenes = [carom.Scene.parse(gas(50, t_end=0.5).toml(), {"seed": seed}) for seed in (1, 2, 3)]
     results = carom.map(scenes, jobs=2)
