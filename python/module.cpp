@@ -372,7 +372,12 @@ PYBIND11_MODULE(_carom, m) {
   bind_scene(m);
   bind_simulation(m);
   m.def("run", &run_scene);
-  py::class_<TrajectoryReader>(m, "TrajectoryReader").def("next", &next_frame);
+  py::class_<TrajectoryReader>(m, "TrajectoryReader")
+      .def("next", &next_frame)
+      .def("skip", [](TrajectoryReader& reader) {
+        const LockGivenUp free;
+        return reader.skip();
+      });
   m.def("write_view", &write_page);
   m.def("open_trajectory", [](const std::string& path) { return open_trajectory(path, true); });
   m.def("trajectory_in", [](const std::string& folder) { return trajectory_in(folder).string(); });

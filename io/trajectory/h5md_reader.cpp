@@ -223,6 +223,12 @@ bool H5mdReader::read(TrajectoryFrame& frame) {
   return true;
 }
 
+bool H5mdReader::skip() {
+  if (!has_more()) return false;
+  ++next_;
+  return true;
+}
+
 Count H5mdReader::frames() const {
   return file_->times.size();
 }

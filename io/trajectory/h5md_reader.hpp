@@ -15,6 +15,7 @@ class H5mdReader : public TrajectoryReader {
 
   // Single precision comes widened. Throws InputError where the file is damaged.
   bool read(TrajectoryFrame& frame) override;
+  bool skip() override;
   void follow(const std::string& path) override { path_ = path; }
 
   Count frames() const;

@@ -34,6 +34,12 @@ class TrajectoryReader {
   // the file and what is wrong with it.
   virtual bool read(TrajectoryFrame& frame) = 0;
 
+  // Likewise, but passes over it: its disks are not looked at, nor what may be wrong with them.
+  virtual bool skip() {
+    TrajectoryFrame passed;
+    return read(passed);
+  }
+
   // Where a growing file has been moved to.
   virtual void follow([[maybe_unused]] const std::string& path) {}
 };

@@ -80,6 +80,7 @@ class XyzReader : public TrajectoryReader {
   // columns are skipped. Throws InputError, "file:line: what is wrong, what was expected", for a file that lacks
   // something, or whose box is not upright with a corner at 0.
   bool read(XyzFrame& frame) override;
+  bool skip() override;
   void follow(const std::string& path) override { path_ = path; }  // it stays open
 
  private:
@@ -92,7 +93,12 @@ class XyzReader : public TrajectoryReader {
 
   [[noreturn]] void fail(const std::string& what) const;
   bool next_line();
+  template <class Pass>
+  bool whole_or_not(Pass&& pass);
   bool read_whole(XyzFrame& frame);
+  bool skip_whole();
+  bool read_count(std::size_t& count);
+  bool cut_short() const;
   void read_layout(std::string_view properties);
   void read_header(XyzFrame& frame);
   Domain read_box() const;

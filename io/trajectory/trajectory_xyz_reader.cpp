@@ -232,10 +232,20 @@ void XyzReader::sort_by_id(XyzFrame& frame) const {
 }
 
 bool XyzReader::read(XyzFrame& frame) {
-  if (!growing_) return read_whole(frame);
+  return whole_or_not([&] { return read_whole(frame); });
+}
+
+bool XyzReader::skip() {
+  return whole_or_not([&] { return skip_whole(); });
+}
+
+// Where pass() comes to no end of the frame, the reader stands at its beginning again.
+template <class Pass>
+bool XyzReader::whole_or_not(Pass&& pass) {
+  if (!growing_) return pass();
   const std::streampos begin = file_.tellg();
   const std::size_t line = line_number_;
-  if (read_whole(frame)) return true;
+  if (pass()) return true;
   // The rest of it may come.
   file_.clear();
   file_.seekg(begin);
@@ -243,9 +253,9 @@ bool XyzReader::read(XyzFrame& frame) {
   return false;
 }
 
-bool XyzReader::read_whole(XyzFrame& frame) {
+// The line that a frame begins with; false at the end of the file.
+bool XyzReader::read_count(std::size_t& count) {
   if (!next_line()) return false;
-  std::size_t count = 0;
   // Editors and other programs leave blank lines at a file's end.
   while (line_number_ > 1 && words(line_).empty()) {
     if (!next_line()) return false;
@@ -259,14 +269,30 @@ bool XyzReader::read_whole(XyzFrame& frame) {
         line_number_ == 1 ? "; expected trajectory.xyz or trajectory.h5 of a run, or its folder" : "";
     fail(fmt::format("'{}' is no number of disks{}", line_.substr(0, 40), expected));
   }
+  return true;
+}
+
+bool XyzReader::cut_short() const {
+  if (!growing_) fail("the file ends inside a frame");
+  return false;
+}
+
+bool XyzReader::skip_whole() {
+  std::size_t count = 0;
+  if (!read_count(count)) return false;
+  for (std::size_t line = 0; line <= count; ++line) {
+    if (!next_line()) return cut_short();
+  }
+  return true;
+}
+
+bool XyzReader::read_whole(XyzFrame& frame) {
+  std::size_t count = 0;
+  if (!read_count(count)) return false;
   frame.disks = {};
   frame.group.clear();
   frame.image_x.clear();
   frame.image_y.clear();
-  const auto cut_short = [this] {
-    if (!growing_) fail("the file ends inside a frame");
-    return false;
-  };
   if (!next_line()) return cut_short();
   read_header(frame);
   for (std::size_t k = 0; k < count; ++k) {

@@ -6,7 +6,7 @@ import json
 import operator
 import os
 import pathlib
-from typing import Any, Iterator, List, Mapping, Optional, Union, overload
+from typing import Any, Iterator, List, Mapping, Optional, Sequence, Union, overload
 
 import numpy as np
 
@@ -59,14 +59,28 @@ class Trajectory:
     def __getitem__(self, k):
         if isinstance(k, slice):
             wanted = range(*k.indices(len(self)))
-            found = {n: frame for n, frame in zip(range(max(wanted, default=-1) + 1), self) if n in wanted}
+            found = self._frames(wanted)
             return [found[n] for n in wanted]
         k = operator.index(k)
         wanted = k + len(self) if k < 0 else k
-        for n, frame in enumerate(self):
-            if n == wanted:
-                return frame
-        raise IndexError(f"frame {k} of {len(self)}")
+        found = self._frames([wanted]) if wanted >= 0 else {}
+        if wanted not in found:
+            raise IndexError(f"frame {k} of {len(self)}")
+        return found[wanted]
+
+    def _frames(self, wanted: Sequence[int]) -> dict:
+        """Those of these numbers that there are; others are passed over, which takes less than to read them."""
+        reader = _carom.open_trajectory(self.file)
+        found = {}
+        for n in range(max(wanted, default=-1) + 1):
+            if n not in wanted:
+                if not reader.skip():
+                    break
+            elif (frame := reader.next()) is not None:
+                found[n] = Frame(*frame)
+            else:
+                break
+        return found
 
     def show(self, file=None, max_size: Optional[int] = None, force: bool = False):
         """The viewer, as `carom view` makes it: one HTML page that plays the run, of at most max_size bytes.

@@ -228,6 +228,16 @@ TEST_F(H5mdFile, TheMarkOfAWriterThatIsGoneIsNoHindrance) {
   EXPECT_EQ(reader.frames(), 4U);
 }
 
+TEST_F(H5mdFile, FramesArePassedOver) {
+  write(rough_scene(), 3);
+  H5mdReader reader(path_);
+  TrajectoryFrame frame;
+  EXPECT_TRUE(reader.skip() && reader.skip());
+  ASSERT_TRUE(reader.read(frame));
+  EXPECT_EQ(frame.time, 2.0);
+  EXPECT_FALSE(reader.skip());
+}
+
 TEST_F(H5mdFile, AGrowingFileIsReadOn) {
   H5mdWriter writer(path_, rough_scene());
   H5mdReader growing(path_, true);

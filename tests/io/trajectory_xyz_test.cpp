@@ -277,6 +277,27 @@ TEST_F(TrajectoryXyz, AGrowingFileIsReadOn) {
   }
 }
 
+// Whatever their lines hold. Of a growing file, one that is cut short is none yet.
+TEST_F(TrajectoryXyz, FramesArePassedOver) {
+  const std::string head = "\nLattice=\"9 0 0 0 8 0 0 0 1\" pbc=\"F F F\" Time=3 " + std::string(columns) + "\n";
+  write_text("2\nof something else\n\n\n0\nof nothing\n1" + head + "1 2 3 4 5 6 7\n2" + head + "1 2 3 4 5 6 1\n");
+  XyzFrame frame;
+  for (const bool growing : {false, true}) {
+    XyzReader reader(path_, growing);
+    EXPECT_TRUE(reader.skip() && reader.skip()) << growing;
+    ASSERT_TRUE(reader.read(frame)) << growing;
+    EXPECT_EQ(frame.time, 3.0);
+    if (!growing) {
+      EXPECT_THROW(reader.skip(), InputError);
+      continue;
+    }
+    EXPECT_FALSE(reader.skip());
+    std::ofstream(path_, std::ios::app) << "1 2 3 4 5 6 2\n";
+    EXPECT_TRUE(reader.skip());
+    EXPECT_FALSE(reader.skip());
+  }
+}
+
 // A reader of a run that goes on sees every frame that was written.
 TEST_F(TrajectoryXyz, AFrameIsInTheFileAsSoonAsItIsWritten) {
   XyzWriter writer(path_, {box_with_periodic_x()});
