@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/base/check.hpp"
+#include "core/base/input_message.hpp"
 #include "core/base/short_number.hpp"
 #include "run/simulation.hpp"
 
@@ -31,7 +32,7 @@ inline constexpr const char* no_memory = "out of memory";
 
 inline carom_status fail(const carom_world* world, carom_status status, const char* what) {
   try {
-    world->error = what;
+    world->error = one_line(what);  // that of a program's own exception may have several
   } catch (const std::bad_alloc&) {
     world->error.clear();
   }

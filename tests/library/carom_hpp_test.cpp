@@ -89,11 +89,11 @@ TEST(CaromHpp, AFunctionSaysHowLongARunGoesOn) {
   EXPECT_EQ(asked, 4);
   EXPECT_EQ(world.steps(), 3U);
   try {
-    world.run_while(1.0, [&]() -> bool { throw std::domain_error("enough"); });
+    world.run_while(1.0, [&]() -> bool { throw std::domain_error("enough\nof it"); });
     FAIL();
   } catch (const carom::Error& error) {
     EXPECT_EQ(error.status(), CAROM_FAILED);
-    EXPECT_STREQ(error.what(), "enough");
+    EXPECT_STREQ(error.what(), "enough?of it");
   }
   EXPECT_EQ(world.steps(), 3U);
   world.run_while(0.5, [&] { return true; });
