@@ -31,7 +31,7 @@ double cutoff_in_spacings(double packing_fraction) {
 // Where disks crowd most cells are empty: with many disks, at most so many times as many cells are made.
 constexpr double most_crowding_of_many = 8.0;
 // A disk is listed ahead of where it is by at most this share of the relist distance, since it has to be within that
-// distance.
+// distance, less what gravity may bend its path by (bend_share): where it is not, it is due at once, for ever.
 constexpr double most_lead = 0.8;
 // In very dense systems the skin is at least this share of a mean diameter.
 constexpr double least_skin = 0.08;
@@ -279,6 +279,7 @@ unsigned NeighbourLists::find_other_sides(const Disks& d, std::uint32_t i) const
 
 double NeighbourLists::earliest_relist_time(std::uint32_t i, const PathSegment& path, double from, double until,
                                             const Gravity& gravity, const RelistDistance& relist) const {
+  static_assert(most_lead < 1.0 - bend_share);
   if (mode_ == EngineMode::all_pairs) return never;
   if (flow_.acts) return earliest_relist_in_flow(i, path, from, until);
   const PathSegment p = carried_to(path, from, gravity);
