@@ -18,17 +18,21 @@ inline bool both_begin_at(double s, const PathSegment& p, const PathSegment& q) 
   return !(s > p.start) && !(s > q.start);
 }
 
-// Calls push(k) with k = `least`, then twice that, and so on, until approach() is not negative. Precondition: each
-// push makes approach() larger, or leaves it as it is where k is too small.
+// Calls push(k) with k = `least`, then twice that, and so on, until approach() is not negative or k no number.
+// Precondition: each push makes approach() larger, or leaves it as it is where k is too small.
 template <class Approach, class Push>
 void push_until_parted(double least, const Approach& approach, const Push& push) {
-  for (double k = std::max(least, std::numeric_limits<double>::min()); approach() < 0.0; k *= 2.0) push(k);
+  constexpr double largest = std::numeric_limits<double>::max();
+  for (double k = std::max(least, std::numeric_limits<double>::min()); approach() < 0.0 && k <= largest; k *= 2.0)
+    push(k);
 }
 
 // Two disks (smaller id first) that met as r says, and have collided since. share: of their masses. jump: by how much
 // dvx of r is more than the difference of the disks' vx, in a sheared box; length / time.
 [[gnu::noinline, gnu::cold]] inline void part_disks(const Relative& r, Shares share, double jump, PathSegment& p,
                                                     PathSegment& q) {
+  // Of masses whose sum is out of a double's range: nothing moves them.
+  if (!(share.first + share.second > 0.0)) return;
   const auto approach = [&] { return r.dx * ((q.vx - p.vx) + jump) + r.dy * (q.vy - p.vy); };
   push_until_parted(-r.approach() / r.distance2(), approach, [&](double k) {
     p.vx -= k * share.first * r.dx;
