@@ -4,7 +4,7 @@
 # written is the difference of the counts over the difference of the work.
 #   counts.sh PROGRAM FILE            writes the CSV file
 #   counts.sh PROGRAM FILE --check    fails, with a line for each, where a count is above the file's by more than 3 %
-#                                   (mispredictions: 6 %) and a thousandth of an event
+#                                   (mispredictions: 15 %, and 4 % in the mean of all scenes) and a thousandth of an event
 #   counts.sh PROGRAM FILE --features   the same of scene G with one feature each, for docs/benchmarks.md
 set -euo pipefail
 file=$(readlink -f -- "$2")
@@ -79,7 +79,9 @@ if [[ $mode != --check ]]; then
     exit
 fi
 # Columns 4 to 7 are the counts. A scene that the file does not know has nothing to be held against. Cachegrind's table
-# of branches is indexed by address: mispredictions of code that only came to lie elsewhere change by up to 3 %.
+# of branches is indexed by the last 7 bits of an address and the last 7 branches: where code only came to lie elsewhere
+# (the same instructions, the same branches), mispredictions of one scene were seen to change by 11 %. Such chances even
+# out over the scenes, so the mean of all is held far closer.
 # What is below a thousandth of an event is a few dozen in the whole run, of where memory came to lie: no percentage of it
 # says anything.
 awk -F, '
@@ -89,9 +91,16 @@ awk -F, '
     !(($1, 4) in kept) { print "counts: " $1 " is not in the file: ./carom bench counts"; bad = 1; next }
     {
         for (k = 4; k <= 7; ++k) {
-            if ($k <= (k == 7 ? 1.06 : 1.03) * kept[$1, k] + 0.001) continue
+            if ($k <= (k == 7 ? 1.15 : 1.03) * kept[$1, k] + 0.001) continue
             printf "counts: %s: %s %s per %s, %s in the file (%+.1f %%)\n", $1, $k, name[k], $3, kept[$1, k], 100 * ($k / kept[$1, k] - 1)
             bad = 1
         }
+        if ($7 > 0 && kept[$1, 7] > 0) { growth += log($7 / kept[$1, 7]); ++scenes }
     }
-    END { exit bad }' "$file" counts.csv
+    END {
+        if (scenes && growth / scenes > log(1.04)) {
+            printf "counts: %s of all scenes: %+.1f %% in the mean\n", name[7], 100 * (exp(growth / scenes) - 1)
+            bad = 1
+        }
+        exit bad
+    }' "$file" counts.csv
