@@ -51,6 +51,22 @@ std::size_t remove_marked(Disks& d, const std::vector<unsigned char>& gone) {
   return before - d.size();
 }
 
+void take_out(Disks& d, std::size_t i) {
+  const auto close = [i](auto& column) {
+    if (column.empty()) return;
+    column[i] = column.back();
+    column.pop_back();
+  };
+  close(d.x);
+  close(d.y);
+  close(d.vx);
+  close(d.vy);
+  close(d.id);
+  close(d.radius);
+  close(d.mass);
+  close(d.spin);
+}
+
 double largest_radius(const Disks& d) {
   if (d.empty()) return 0.0;
   return d.radius.empty() ? d.common_radius : *std::max_element(d.radius.begin(), d.radius.end());

@@ -2,27 +2,6 @@
 
 namespace carom {
 
-namespace {
-
-// The last entry takes the place of entry i.
-void take_out(Disks& d, std::size_t i) {
-  const auto close = [i](auto& column) {
-    if (column.empty()) return;
-    column[i] = column.back();
-    column.pop_back();
-  };
-  close(d.x);
-  close(d.y);
-  close(d.vx);
-  close(d.vy);
-  close(d.id);
-  close(d.radius);
-  close(d.mass);
-  close(d.spin);
-}
-
-}  // namespace
-
 void apply(const Edit& edit, State& state) {
   Disks& d = state.disks;
   switch (edit.kind) {

@@ -24,6 +24,8 @@ PairKind kind_of_pairs(const WindowState& window) {
 constexpr Count events_between_polls = 4096;
 // The calendar is laid out for at most so many; windows aim at two.
 constexpr double most_events_a_disk = 2.2;
+// Windows with less than one event for so many disks are short.
+constexpr double disks_per_event = 8.0;
 
 }  // namespace
 
@@ -50,7 +52,12 @@ void EventProcessor<scope>::enter_all(double events_a_disk) {
   calendar.begin(window_.slice_start, window_.length, window_.entries_of(first, last, worker_.number),
                  static_cast<std::size_t>(expected), window_.looks_ahead);
   const auto is_active = [this](std::uint32_t i) { return !has_regions || record_[i].progress.is_active(); };
-  calendar.insert_all(is_active);
+  // In a short window most events come after its end: those disks stay out until they get another event.
+  if (disks_per_event * expected < static_cast<double>(last - first)) {
+    calendar.insert_all([&](std::uint32_t i) { return calendar.time_of(i) <= window_.length && is_active(i); });
+  } else {
+    calendar.insert_all(is_active);
+  }
   // Nothing has happened yet, so that disks that are due now may be predicted in any order; that keeps the calendar's
   // first page short.
   for (std::uint32_t i = first; i < last; ++i) {

@@ -31,6 +31,8 @@ namespace {
 
 // Disks that sources give in a window, above which one queue is faster than regions on two threads.
 constexpr double most_newcomers_of_regions = 0.5;
+// Where more than one of so many disks leave in a window, it takes less to make all lists anew than to take them out.
+constexpr std::size_t disks_per_leaver = 8;
 
 class ParallelExact final : public Engine {
  public:
@@ -47,11 +49,11 @@ class ParallelExact final : public Engine {
 
   void step() override {
     if (!(state_.time < scene_.run.t_end)) return;
+    logged_.reset();
     start_window();
     const SpeedSummary speeds = summarise_speeds(state_.disks, scene_.box, executor_);
     WindowPlan plan = plan_window(scene_, state_, state_.disks.size(), speeds);
     if (obstacles_) obstacles_->follow(plan.start, plan.end);
-    logged_.reset();
     if (!run_window_with_retry(plan, speeds)) return;
     finish(plan);
   }
@@ -82,6 +84,7 @@ class ParallelExact final : public Engine {
   }
   bool has_room(const Disk& newcomer) const;
   void remove(const std::vector<unsigned char>& gone);
+  void take_out_leavers();
   double newcomers_in(double length) const;
   void build_lists_if_due(const WindowPlan& plan, bool regions_allowed);
   bool run_window_with_retry(WindowPlan& plan, const SpeedSummary& speeds);
@@ -101,6 +104,9 @@ class ParallelExact final : public Engine {
   std::optional<WindowPlan> logged_;  // the last window, if its paths are known
   std::vector<unsigned char> gone_;
   Disks at_start_;  // the columns before disks left through sinks in the last window; else empty
+  // Their indices in these, the largest first, while they are known still: they are taken out when the next window
+  // starts, as frames of the last one need them.
+  std::vector<std::size_t> leavers_;
   std::vector<double> column_scratch_;
   std::vector<DiskId> id_scratch_;
 };
@@ -108,6 +114,7 @@ class ParallelExact final : public Engine {
 // Sources emit, Brownian disks draw their velocities; those that cross a sink unseen in the interval leave.
 void ParallelExact::start_window() {
   const PhaseTimer timer(times_, "start");
+  take_out_leavers();
   if (!scene_.sources.empty()) {
     add_disks([&] { emit_at_window_start(scene_, state_, [&](const Disk& d) { return has_room(d); }); });
   }
@@ -119,6 +126,7 @@ void ParallelExact::start_window() {
 }
 
 void ParallelExact::release_memory() {
+  leavers_.clear();
   windows_.release_memory();
   halos_.release_memory();
   logged_.reset();
@@ -127,7 +135,7 @@ void ParallelExact::release_memory() {
 bool ParallelExact::edit(const Edit& edit) {
   // The paths of the last window no longer go with the disks.
   logged_.reset();
-  at_start_ = Disks{};
+  take_out_leavers();
   if (edit.kind == Edit::Kind::add) {
     add_disks([&] { apply(edit, state_); });
     return true;
@@ -145,10 +153,11 @@ void ParallelExact::add_disks(const Add& add) {
   const Disks& d = state_.disks;
   const std::size_t before = d.size();
   const bool equal_radii = d.radius.empty();
-  const bool takes = windows_.takes_newcomers();
+  const bool takes = windows_.takes_changes();
   add();
   if (d.size() == before) return;
-  const bool fits = d.radius.empty() || (!equal_radii && largest_radius(d) <= windows_.largest_radius());
+  bool fits = d.radius.empty() || !equal_radii;
+  for (std::size_t i = before; i < d.size(); ++i) fits = fits && d.radius_of(i) <= windows_.largest_radius();
   if (takes && fits) {
     windows_.append_disks(before);
   } else {
@@ -159,15 +168,13 @@ void ParallelExact::add_disks(const Add& add) {
 // Makes the change in what is known of the disks; false where all is to be made anew. A disk whose next event is now is
 // predicted at the start of the next window, with all disks near it.
 bool ParallelExact::lists_take(const Edit& edit) {
-  const Disks& d = state_.disks;
   const double now = windows_.length();
   if (edit.kind == Edit::Kind::set_velocity) {
     windows_.window().set_next_event_time(static_cast<std::uint32_t>(edit.index), now);
     return true;
   }
-  if (windows_.window().mode != EngineMode::single_queue || d.size() <= all_pairs_up_to) return false;
-  windows_.lists().remove(static_cast<std::uint32_t>(edit.index), d);
-  windows_.window().remove_disk(edit.index);
+  if (!windows_.takes_changes()) return false;
+  windows_.remove_disk(edit.index, state_.disks);
   return true;
 }
 
@@ -184,8 +191,8 @@ bool ParallelExact::visit_near(Vec2 centre, double half_width, double half_heigh
     halos_.visit_near(centre, half_width, half_height, visit);
     return true;
   }
-  if (windows_.known() == Known::nothing || windows_.window().mode == EngineMode::all_pairs || scene_.box.shear.acts())
-    return false;
+  const bool listed = windows_.known() != Known::nothing && windows_.window().mode != EngineMode::all_pairs;
+  if (!listed || !leavers_.empty() || scene_.box.shear.acts()) return false;
   windows_.lists().visit_near(centre, half_width, half_height, [&](std::uint32_t i) { visit(i); });
   return true;
 }
@@ -206,13 +213,32 @@ void ParallelExact::begin_brownian() {
   draw_brownian_interval(state_.disks, scene_, interval, executor_, gone_);
   forget(Known::lists);
   if (!gone_.empty()) remove(gone_);
+  take_out_leavers();
 }
 
 void ParallelExact::remove(const std::vector<unsigned char>& gone) {
-  const std::size_t before = state_.disks.size();
+  at_start_ = state_.disks;
+  leavers_.clear();
+  for (std::size_t i = gone.size(); i-- > 0;) {
+    if (gone[i] != 0) leavers_.push_back(i);
+  }
+  state_.counters.removed += leavers_.size();
+  if (windows_.takes_changes() && leavers_.size() * disks_per_leaver <= gone.size()) {
+    for (const std::size_t i : leavers_) take_out(state_.disks, i);
+    return;
+  }
   remove_in_parallel(state_.disks, gone, executor_, column_scratch_, id_scratch_);
-  state_.counters.removed += before - state_.disks.size();
-  if (state_.disks.size() != before) forget(Known::nothing);
+  if (!leavers_.empty()) forget(Known::nothing);
+  leavers_.clear();
+}
+
+void ParallelExact::take_out_leavers() {
+  for (const std::size_t i : leavers_) {
+    windows_.remove_disk(i, at_start_);
+    take_out(at_start_, i);
+  }
+  leavers_.clear();
+  at_start_ = Disks{};
 }
 
 // How many disks sources give in a window of this length, if all find room.
@@ -227,7 +253,8 @@ double ParallelExact::newcomers_in(double length) const {
 
 void ParallelExact::build_lists_if_due(const WindowPlan& plan, bool regions_allowed) {
   if (!windows_.lists_due(plan)) return;
-  // Regions take no newcomers: their lists are built anew, which takes as long as a window's events.
+  // Regions take no changes: their lists are built anew. Where disks leave through sinks, that is once in a window of
+  // full length, and faster than one queue; each newcomer ends a window.
   regions_allowed = regions_allowed && newcomers_in(plan.meant) < most_newcomers_of_regions;
   windows_.build_lists(plan, choose_layout(state_.disks.size(), scene_.box, regions_allowed, executor_));
 }
@@ -277,10 +304,9 @@ bool ParallelExact::run_whole_with_retry(WindowPlan& plan, const SpeedSummary& s
 void ParallelExact::finish(const WindowPlan& plan) {
   gone_.clear();
   const ImpactTally tally = in_parts_ ? halos_.store_paths(plan) : windows_.store_paths(plan, gone_);
-  const bool any_gone = !gone_.empty();
-  at_start_ = any_gone ? state_.disks : Disks{};
+  at_start_ = Disks{};
   logged_ = plan;
-  if (any_gone) remove(gone_);
+  if (!gone_.empty()) remove(gone_);
   finish_window(state_, state_.disks.size(), plan, tally);
   Overlap wall;
   if (walls_are_watched(scene_)) wall = deepest_wall_overlap(state_.disks, box_at(scene_.box, state_.time), executor_);

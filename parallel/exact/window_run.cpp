@@ -124,7 +124,7 @@ void WindowRun::append_last_disk(Vec2 at) {
   lists_.append(state_.disks, static_cast<std::uint32_t>(state_.disks.size() - 1), at);
 }
 
-bool WindowRun::takes_newcomers() const {
+bool WindowRun::takes_changes() const {
   return known_ != Known::nothing && window_.mode == EngineMode::single_queue && !scene_.box.shear.acts() &&
          state_.disks.size() > all_pairs_up_to;
 }
@@ -135,6 +135,11 @@ void WindowRun::append_disks(std::size_t first) {
     window_.append_disk(length_);
     lists_.append(d, static_cast<std::uint32_t>(i), {d.x[i], d.y[i]});
   }
+}
+
+void WindowRun::remove_disk(std::size_t i, const Disks& disks) {
+  lists_.remove(static_cast<std::uint32_t>(i), disks);
+  window_.remove_disk(i);
 }
 
 void WindowRun::note_listing(std::uint32_t i) {

@@ -62,11 +62,14 @@ class WindowRun {
   // given back now.
   void forget_lists();
 
-  // One queue, between windows: can disks be added to what is known, if no radius is larger than those that are listed?
-  bool takes_newcomers() const;
+  // One queue, between windows: can disks be taken out of what is known, and added if no radius is larger than those
+  // that are listed?
+  bool takes_changes() const;
   // The disks from this one on are new, at the end of the columns; they are listed, and predicted at the start of the
   // next window.
   void append_disks(std::size_t first);
+  // Disk i of the last window is to go, and the last one takes its index. disks: the columns, which have it still.
+  void remove_disk(std::size_t i, const Disks& disks);
 
   // Are the lists to be built anew for this window?
   bool lists_due(const WindowPlan& plan) const;
