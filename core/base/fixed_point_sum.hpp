@@ -11,13 +11,11 @@ struct FixedPointSum {
   std::int64_t high = 0, low = 0;
 };
 
-// Adds a term, cut off to a multiple of 2^-40. Precondition: its magnitude is at most 2; there are at most 2^41 of
-// them.
-inline void add_term(FixedPointSum& sum, double term) {
+// A term, cut off to a multiple of 2^-40. Precondition: its magnitude is at most 2. At most 2^41 terms may be added up.
+inline FixedPointSum fixed_point(double term) {
   constexpr int low_bits = 20;
   const auto units = static_cast<std::int64_t>(term * 0x1p40);
-  sum.high += units >> low_bits;
-  sum.low += units & ((std::int64_t{1} << low_bits) - 1);
+  return {units >> low_bits, units & ((std::int64_t{1} << low_bits) - 1)};
 }
 
 inline FixedPointSum& operator+=(FixedPointSum& sum, const FixedPointSum& other) {

@@ -9,13 +9,15 @@ namespace carom {
 
 namespace {
 
-// Cells without disks cost time and bytes too: about as many cells along a side as disks make sensible.
-double most_cells(std::size_t disks) {
-  return std::sqrt(static_cast<double>(disks)) + 1.0;
-}
+// Disks a cell, about: a run of them that a chord reaches has a few too many at each end.
+constexpr std::size_t disks_a_cell = 2;
 
-std::size_t cell_of(double coordinate, double length, std::size_t cells) {
-  return cell_index(coordinate / length * static_cast<double>(cells), cells);
+// Rows of at least a third of r_max, as many as there are disks for along a side. Where a side is periodic, three rows
+// above and three below have to be different ones.
+std::size_t rows_for(const Domain& box, double r_max, std::size_t rows_ahead, std::size_t disks) {
+  const double most = std::sqrt(static_cast<double>(disks)) + 1.0;
+  const auto rows = static_cast<std::size_t>(cells_along(box.height, r_max / static_cast<double>(rows_ahead), most));
+  return box.periodic_y() && rows < 2 * rows_ahead + 1 ? 1 : rows;
 }
 
 // Where centres may be along an axis: the margin away from both sides, wherever those are that move; length.
@@ -34,25 +36,22 @@ Extent extent_of_centres(const Domain& box, bool along_x, double margin) {
 
 }  // namespace
 
-DistanceCells::Axis DistanceCells::axis(double length, bool periodic, std::size_t disks) const {
-  const auto cells = static_cast<std::size_t>(cells_along(length, bins_.r_max, most_cells(disks)));
-  return {length, periodic, cells < 3 ? 1 : cells};
-}
-
 DistanceCells::DistanceCells(const Disks& d, const Domain& box, const DistanceBins& bins)
     : bins_(bins),
       box_(box),
-      x_(axis(box.width, box.periodic_x(), d.size())),
-      y_(axis(box.height, box.periodic_y(), d.size())),
-      rows_(y_.cells),
-      places_(d.size()) {
-  // Of the one row of a sheared box, what lies above is the row itself, displaced: all pairs.
-  if (box.shear.acts() && y_.cells == 1) x_.cells = 1;
-  start_.assign(x_.cells * y_.cells + 1, 0);
+      rows_(rows_for(box, bins.r_max, rows_ahead, d.size())),
+      columns_(d.size() / (disks_a_cell * rows_) + 1),
+      row_height_(box.height / static_cast<double>(rows_)),
+      margin_(1e-9 * (box.width + box.height)),
+      x_(d.size()),
+      y_(d.size()),
+      disk_(d.size()),
+      centre_(d.size()) {
+  start_.assign(rows_ * columns_ + 1, 0);
   std::vector<std::uint32_t> cell(d.size());
   for (std::size_t i = 0; i < d.size(); ++i) {
-    cell[i] = static_cast<std::uint32_t>(cell_of(d.y[i], y_.length, y_.cells) * x_.cells +
-                                         cell_of(d.x[i], x_.length, x_.cells));
+    const std::size_t row = cell_index(d.y[i] / box.height * static_cast<double>(rows_), rows_);
+    cell[i] = static_cast<std::uint32_t>(cell_at(row, d.x[i]));
     ++start_[cell[i] + 1];
   }
   for (std::size_t c = 1; c < start_.size(); ++c) start_[c] += start_[c - 1];
@@ -60,47 +59,36 @@ DistanceCells::DistanceCells(const Disks& d, const Domain& box, const DistanceBi
   const Extent along_x = extent_of_centres(box, true, bins_.wall_margin);
   const Extent along_y = extent_of_centres(box, false, bins_.wall_margin);
   for (std::size_t i = 0; i < d.size(); ++i) {
-    const bool centre = (x_.periodic || along_x.holds(d.x[i])) && (y_.periodic || along_y.holds(d.y[i]));
-    places_[next[cell[i]]++] = {d.x[i], d.y[i], centre ? 1U : 0U, static_cast<std::uint32_t>(i)};
+    const bool centre = (box.periodic_x() || along_x.holds(d.x[i])) && (box.periodic_y() || along_y.holds(d.y[i]));
+    const std::uint32_t place = next[cell[i]]++;
+    x_[place] = d.x[i];
+    y_[place] = d.y[i];
+    disk_[place] = static_cast<std::uint32_t>(i);
+    centre_[place] = centre ? 1 : 0;
     centres_ += centre ? 1U : 0U;
   }
 }
 
-// Half of the cells around a cell, so that every two neighbours meet once: the next in its row and three of the row
-// above, round the corner of a periodic side.
-std::size_t DistanceCells::neighbours(std::size_t row, std::size_t column, Neighbours& cells) const {
-  std::size_t count = 0;
-  const bool right = column + 1 < x_.cells || (x_.periodic && x_.cells > 1);
-  const bool left = column > 0 || (x_.periodic && x_.cells > 1);
-  const std::size_t next = column + 1 < x_.cells ? column + 1 : 0;
-  const std::size_t before = column > 0 ? column - 1 : x_.cells - 1;
-  if (right) cells[count++] = row * x_.cells + next;
-  if (row + 1 == y_.cells && !(y_.periodic && y_.cells > 1)) return count;
-  if (row + 1 == y_.cells && box_.shear.acts()) return displaced_above(column, cells, count);
-  const std::size_t above = (row + 1 < y_.cells ? row + 1 : 0) * x_.cells;
-  if (left) cells[count++] = above + before;
-  cells[count++] = above + column;
-  if (right) cells[count++] = above + next;
-  return count;
+// The cell of a row that holds x; the nearest one for what lies outside.
+std::size_t DistanceCells::cell_at(std::size_t row, double x) const {
+  return row * columns_ + cell_index(x / box_.width * static_cast<double>(columns_), columns_);
 }
 
-// The lowest row has its images above displaced by the offset: of the cells there, those that come within a cell of
-// this column, and of two whose edge rounding might miss, both. Adds them to the first `count`.
-std::size_t DistanceCells::displaced_above(std::size_t column, Neighbours& cells, std::size_t count) const {
-  constexpr double rounding = 1e-9;  // of a cell; a column's number has ten digits before it at most
-  const double middle = static_cast<double>(column) - box_.shear.offset / x_.length * static_cast<double>(x_.cells);
-  const auto first = static_cast<std::ptrdiff_t>(std::floor(middle - 1.0 - rounding));
-  const auto last = static_cast<std::ptrdiff_t>(std::floor(middle + 2.0 + rounding));
-  const auto columns = static_cast<std::ptrdiff_t>(x_.cells);
-  const std::ptrdiff_t end = std::min(last + 1, first + columns);
-  for (std::ptrdiff_t c = first; c < end; ++c) {
-    cells[count++] = static_cast<std::size_t>(((c % columns) + columns) % columns);
-  }
-  return count;
+// Half the chord of the circle round a place where it is widest in the row so many rows above; negative: the row is out
+// of reach. A disk below the box counts to the lowest row, one above it to the uppermost.
+double DistanceCells::chord(std::size_t place, std::size_t rows_above, std::size_t row) const {
+  const double edge = static_cast<double>(row + rows_above) * row_height_;
+  const double height = std::max(0.0, edge - y_[place] - margin_);
+  const double half2 = bins_.r_max * bins_.r_max - height * height;
+  return half2 < 0.0 ? -1.0 : std::sqrt(half2) + margin_;
 }
 
 void DistanceCells::count(std::size_t begin, std::size_t end, std::vector<Count>& counts) const {
-  visit(begin, end, [&](std::size_t bin, const Place& p, const Place& q) { counts[bin] += p.centre + q.centre; });
+  const std::uint8_t* const centre = centre_.data();
+  Count* const counted = counts.data();
+  visit(begin, end, [=](std::size_t bin, std::size_t p, std::size_t q) {
+    counted[bin] += static_cast<Count>(centre[p]) + centre[q];
+  });
 }
 
 PairCounts count_pairs(const Disks& disks, const Domain& box, const DistanceBins& bins, const BlockRunner& run) {

@@ -1,6 +1,7 @@
 // How many pairs of disks are how far apart: what the pair correlation g(r) is made of.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -23,17 +24,11 @@ struct DistanceBins {
   double wall_margin = 0.0;  // see DistancePlan
 };
 
-// The centres, sorted into cells no smaller than r_max, so that all partners are in the 3 x 3 cells around, in a
-// sheared box above the uppermost row in up to five cells that its offset says. A side with room for fewer than three
-// cells has one; a sheared box as low as that has one in all.
+// The disks sorted into rows across the box, and along each into cells. A row's height is a third of r_max or more, so
+// that partners lie in the three rows above and below; in each of these, in cells that a chord of the circle of radius
+// r_max reaches. A box that is low for that and periodic has one row.
 class DistanceCells {
  public:
-  struct Place {
-    double x, y;         // length
-    unsigned centre;     // 1: its surroundings count
-    std::uint32_t disk;  // where it is stored
-  };
-
   struct Span {
     std::size_t begin, end;
   };
@@ -49,77 +44,164 @@ class DistanceCells {
   }
   std::size_t centres() const { return centres_; }
 
+  // Disks have places in the order of their cells. By place: where the disk is stored; 1 if its surroundings count.
+  const std::vector<std::uint32_t>& disks() const { return disk_; }
+  const std::vector<std::uint8_t>& are_centres() const { return centre_; }
+
   // Adds to counts[k] the ordered pairs (i, j) in bin k whose first disk is a centre, of which the one in the lower
-  // cell lies in rows [begin, end). Integers: rows may be counted apart, in any order, and added.
+  // row, or the first one of a row, lies in rows [begin, end). Integers: rows may be counted apart, in any order, and
+  // added.
   void count(std::size_t begin, std::size_t end, std::vector<Count>& counts) const;
 
-  // Calls add(k, p, q) once for each pair of Places in bin k of which the one in the lower cell lies in rows [begin,
-  // end), in an order that depends on the order of storage alone.
+  // Calls add(k, p, q) once for each pair of places in bin k of which the one in the lower row, or the first one of a
+  // row, lies in rows [begin, end), in an order that depends on the order of storage alone.
   template <class Add>
   void visit(std::size_t begin, std::size_t end, const Add& add) const;
 
  private:
-  struct Axis {
-    double length = 0.0;
-    bool periodic = false;
-    std::size_t cells = 1;
+  // What is added to the difference of two places, that of an image.
+  struct Shift {
+    double x, y;  // length; 0, or a period
   };
-  std::size_t rows_a_block() const { return (rows_ + most_blocks - 1) / most_blocks; }
-  Axis axis(double length, bool periodic, std::size_t disks) const;
-  using Neighbours = std::array<std::size_t, 6>;
-  std::size_t neighbours(std::size_t row, std::size_t column, Neighbours& cells) const;
-  std::size_t displaced_above(std::size_t column, Neighbours& cells, std::size_t count) const;
-  template <bool round_corner, class Add>
-  void visit_between(std::size_t cell, std::size_t other, const Add& add) const;
-
+  static constexpr std::size_t rows_ahead = 2;
   static constexpr std::size_t most_blocks = 256;  // each has sums of its own
+  static constexpr std::size_t run_length = 256;   // of places that are compared with one at a time
+
+  std::size_t rows_a_block() const { return (rows_ + most_blocks - 1) / most_blocks; }
+  std::size_t cell_at(std::size_t row, double x) const;
+  double chord(std::size_t place, std::size_t rows_above, std::size_t row) const;
+  template <class Add>
+  void visit_row_above(std::size_t place, std::size_t row, std::size_t rows_above, const Add& add) const;
+  template <class Add>
+  void visit_own_row(std::size_t place, std::size_t row, double shift_y, const Add& add) const;
+  template <class Distance2, class Add>
+  void visit_run(std::size_t place, std::size_t begin, std::size_t end, const Distance2& distance2, Add add) const;
+  template <class Add>
+  void visit_shifted(std::size_t place, std::size_t begin, std::size_t end, Shift shift, const Add& add) const;
+  template <class Add>
+  void visit_sheared(std::size_t place, std::size_t begin, std::size_t end, const Add& add) const;
+
   DistanceBins bins_;
   Domain box_;
-  Axis x_, y_;
-  std::size_t rows_ = 1;
+  std::size_t rows_ = 1, columns_ = 1;
+  double row_height_ = 0.0;  // length
+  double margin_ = 0.0;      // rounding of a place, generously; length
   std::size_t centres_ = 0;
-  std::vector<std::uint32_t> start_;  // of each cell in places_, one more than cells
-  std::vector<Place> places_;
+  std::vector<std::uint32_t> start_;  // of each cell among the places, one more than cells
+  std::vector<double> x_, y_;         // by place; length
+  std::vector<std::uint32_t> disk_;
+  std::vector<std::uint8_t> centre_;
 };
 
-// round_corner: the cells may be neighbours across a periodic side. Elsewhere the nearest image is the disk itself, or
-// it is further than r_max.
-template <bool round_corner, class Add>
-void DistanceCells::visit_between(std::size_t cell, std::size_t other, const Add& add) const {
+// distance2(q): of place q from this one; length^2. First the distances of a run, in bins, so that they are computed
+// several at a time; add is copied, so that what it refers to stays in registers.
+template <class Distance2, class Add>
+void DistanceCells::visit_run(std::size_t place, std::size_t begin, std::size_t end, const Distance2& distance2,
+                              Add add) const {
   const double r_max2 = bins_.r_max * bins_.r_max;
-  const double bins_per_length = static_cast<double>(bins_.bins) / bins_.r_max;
-  for (std::size_t a = start_[cell]; a < start_[cell + 1]; ++a) {
-    const Place p = places_[a];
-    for (std::size_t b = cell == other ? a + 1 : start_[other]; b < start_[other + 1]; ++b) {
-      const Place& q = places_[b];
-      double dx = q.x - p.x;
-      double dy = q.y - p.y;
-      if constexpr (round_corner) {
-        const Vec2 apart = nearest_image(Vec2{dx, dy}, box_);
-        dx = apart.x;
-        dy = apart.y;
-      }
-      const double r2 = dx * dx + dy * dy;
-      if (!(r2 < r_max2)) continue;
-      const auto bin = static_cast<std::size_t>(std::sqrt(r2) * bins_per_length);
-      if (bin < bins_.bins) add(bin, p, q);
+  const auto bins = static_cast<std::int64_t>(bins_.bins);
+  const double bins_per_length = static_cast<double>(bins) / bins_.r_max;
+  std::array<double, run_length> r2, in_bins;
+  for (std::size_t first = begin; first < end; first += run_length) {
+    const std::size_t n = std::min(run_length, end - first);
+    for (std::size_t k = 0; k < n; ++k) {
+      r2[k] = distance2(first + k);
+      in_bins[k] = std::sqrt(r2[k]) * bins_per_length;
     }
+    for (std::size_t k = 0; k < n; ++k) {
+      if (!(r2[k] < r_max2)) continue;
+      const auto bin = static_cast<std::int64_t>(in_bins[k]);
+      if (bin < bins) add(static_cast<std::size_t>(bin), place, first + k);
+    }
+  }
+}
+
+// With one image of each disk: as r_max is at most half a period, no other one is as near, so that no pair comes twice.
+template <class Add>
+void DistanceCells::visit_shifted(std::size_t place, std::size_t begin, std::size_t end, Shift shift,
+                                  const Add& add) const {
+  const double x = x_[place];
+  const double y = y_[place];
+  const double* const xs = x_.data();
+  const double* const ys = y_.data();
+  const auto distance2 = [=](std::size_t q) {
+    const double dx = (xs[q] - x) + shift.x;
+    const double dy = (ys[q] - y) + shift.y;
+    return dx * dx + dy * dy;
+  };
+  visit_run(place, begin, end, distance2, add);
+}
+
+template <class Add>
+void DistanceCells::visit_sheared(std::size_t place, std::size_t begin, std::size_t end, const Add& add) const {
+  const auto distance2 = [&](std::size_t q) {
+    const Vec2 apart = nearest_image(Vec2{x_[q] - x_[place], y_[q] - y_[place]}, box_);
+    return apart.x * apart.x + apart.y * apart.y;
+  };
+  visit_run(place, begin, end, distance2, add);
+}
+
+// A row that is so many rows above that of the place, round the corner of a periodic side.
+template <class Add>
+void DistanceCells::visit_row_above(std::size_t place, std::size_t row, std::size_t rows_above, const Add& add) const {
+  const std::size_t other = row + rows_above;
+  if (other >= rows_ && !box_.periodic_y()) return;
+  const bool above = other >= rows_;
+  const std::size_t stored = above ? other - rows_ : other;
+  const std::size_t first = start_[stored * columns_];
+  const std::size_t last = start_[(stored + 1) * columns_];
+  if (above && box_.shear.acts()) return visit_sheared(place, first, last, add);
+  const double half = chord(place, rows_above, row);
+  if (half < 0.0) return;
+  const double low = x_[place] - half;
+  const double high = x_[place] + half;
+  const double shift_y = above ? box_.height : 0.0;
+  visit_shifted(place, start_[cell_at(stored, low)], start_[cell_at(stored, high) + 1], {0.0, shift_y}, add);
+  if (!box_.periodic_x()) return;
+  const double period = box_.width;
+  if (low < 0.0) visit_shifted(place, start_[cell_at(stored, low + period)], last, {-period, shift_y}, add);
+  if (high >= period) {
+    visit_shifted(place, first, start_[cell_at(stored, high - period) + 1], {period, shift_y}, add);
+  }
+}
+
+// With those behind the place.
+template <class Add>
+void DistanceCells::visit_own_row(std::size_t place, std::size_t row, double shift_y, const Add& add) const {
+  const double reach = bins_.r_max + margin_;
+  const std::size_t first = place + 1;
+  const std::size_t last = start_[(row + 1) * columns_];
+  const double high = x_[place] + reach;
+  visit_shifted(place, first, start_[cell_at(row, high) + 1], {0.0, shift_y}, add);
+  if (!box_.periodic_x()) return;
+  const double period = box_.width;
+  const double low = x_[place] - reach + period;
+  if (low < period) {
+    visit_shifted(place, std::max<std::size_t>(first, start_[cell_at(row, low)]), last, {-period, shift_y}, add);
+  }
+  // Those are behind the place only where they are in the same cell.
+  if (high >= period) {
+    visit_shifted(place, first, start_[cell_at(row, high - period) + 1], {period, shift_y}, add);
   }
 }
 
 template <class Add>
 void DistanceCells::visit(std::size_t begin, std::size_t end, const Add& add) const {
-  Neighbours around{};
+  const bool around = box_.periodic_y() && rows_ == 1;
   for (std::size_t row = begin; row < end; ++row) {
-    for (std::size_t column = 0; column < x_.cells; ++column) {
-      const std::size_t home = row * x_.cells + column;
-      const bool at_side = row + 1 == y_.cells || column == 0 || column + 1 == x_.cells;
-      const auto visit_with = [&](std::size_t other) {
-        at_side ? visit_between<true>(home, other, add) : visit_between<false>(home, other, add);
-      };
-      visit_with(home);
-      const std::size_t n = neighbours(row, column, around);
-      for (std::size_t k = 0; k < n; ++k) visit_with(around[k]);
+    const std::size_t last = start_[(row + 1) * columns_];
+    for (std::size_t place = start_[row * columns_]; place < last; ++place) {
+      if (around && box_.shear.acts()) {
+        visit_sheared(place, place + 1, last, add);
+        continue;
+      }
+      visit_own_row(place, row, 0.0, add);
+      if (around) {
+        visit_own_row(place, row, box_.height, add);
+        visit_own_row(place, row, -box_.height, add);
+        continue;
+      }
+      for (std::size_t k = 1; k <= rows_ahead; ++k) visit_row_above(place, row, k, add);
     }
   }
 }

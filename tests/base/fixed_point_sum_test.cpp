@@ -13,7 +13,7 @@ namespace {
 
 FixedPointSum sum_of(const std::vector<double>& terms, std::size_t begin, std::size_t end) {
   FixedPointSum sum;
-  for (std::size_t k = begin; k < end; ++k) add_term(sum, terms[k]);
+  for (std::size_t k = begin; k < end; ++k) sum += fixed_point(terms[k]);
   return sum;
 }
 
@@ -46,7 +46,7 @@ TEST(FixedPointSum, IsTheSameInAnyOrderAndAnyParts) {
 // As many terms of one sign as a bin of 10^9 disks may have: by adding a sum to itself.
 TEST(FixedPointSum, HasRoomForMany) {
   FixedPointSum sum;
-  add_term(sum, 2.0 - 0x1p-40);
+  sum += fixed_point(2.0 - 0x1p-40);
   for (int k = 0; k < 41; ++k) {
     sum.high *= 2;
     sum.low *= 2;
