@@ -38,8 +38,8 @@ double read_inward(const TableReader& motion, const MotionKeys& keys, std::size_
   const double across = is_vertical(s) ? keys.value.x : keys.value.y;
   const double along = is_vertical(s) ? keys.value.y : keys.value.x;
   if (along != 0.0) {
-    motion.fail(keys.name, fmt::format("is {} along the side, which does nothing to disks without friction", along),
-                "expected 0 there");
+    motion.fail(keys.name, fmt::format("is {} along the side, which moves across itself alone", along),
+                "expected 0 there; disks are dragged along by an inner wall ([[walls]]) and wall_roughness");
   }
   if (!in_range(keys.dimension(), std::abs(across))) {
     motion.fail(keys.name, fmt::format("is {}", across), expected_range(keys.dimension()));

@@ -144,7 +144,7 @@ const Fault out_of_range[] = {
     {"MotionOfThermalSide", "left = \"wall\"", "left = { temperature = 1, motion = { velocity = [1, 0] } }",
      "7: box.left.motion: ", "given beside temperature"},
     {"MotionAlong", "left = \"wall\"", "left = { motion = { velocity = [0.1, 1] } }",
-     "7: box.left.motion.velocity: ", "is 1 along the side, which does nothing"},
+     "7: box.left.motion.velocity: ", "is 1 along the side, which moves across itself"},
     {"MotionAsNumber", "left = \"wall\"", "left = { motion = 1 }", "7: box.left.motion: ", "expected { velocity"},
     {"MotionOfOneNumber", "left = \"wall\"", "left = { motion = { velocity = [1] } }",
      "7: box.left.motion.velocity: ", "has 1 number"},
