@@ -1,8 +1,9 @@
 // Where the steps of a run lie in time, and how a step is split when it is too long to be safe.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cmath>
-#include <string>
 
 #include "core/base/check.hpp"
 #include "core/base/types.hpp"
@@ -66,9 +67,10 @@ inline Count parts_of_step(double travel2, double fall, double dt) {
   if (!(travel > safe_travel)) return 1;
   const double parts = std::ceil(travel / safe_travel);
   if (!(parts <= most_parts)) {
-    throw PhysicsError("run.dt: the fastest disk moves " + std::to_string(travel) + " radii in one step, more than " +
-                       std::to_string(static_cast<int>(safe_travel * most_parts)) +
-                       "; choose a smaller dt or the exact method");
+    throw PhysicsError(
+        fmt::format("run.dt: the fastest disk moves {:.6g} radii in one step, more than {}; choose a smaller dt or the "
+                    "exact method",
+                    travel, safe_travel * most_parts));
   }
   return static_cast<Count>(parts);
 }

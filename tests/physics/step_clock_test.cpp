@@ -1,9 +1,11 @@
 // Where steps lie in time, and into how many parts a long one is split.
 #include "core/step/step_clock.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "tests/support/disks_by_hand.hpp"
 #include "tests/support/draws.hpp"
@@ -11,6 +13,16 @@
 
 namespace carom {
 namespace {
+
+// What a step of 1 time unit, too long by far, is refused with.
+std::string refusal_of(double travel2) {
+  try {
+    parts_of_step(travel2, 0.0, 1.0);
+  } catch (const PhysicsError& error) {
+    return error.what();
+  }
+  return "";
+}
 
 TEST(StepClock, TimesAreProducts) {
   const StepClock clock = make_step_clock(0.1, 100.0);
@@ -65,6 +77,14 @@ TEST(StepClock, EnginesEndAtTheEnd) {
       EXPECT_EQ(engine->state().disks.x[0], end.disks.x[0]);
     }
   }
+}
+
+// However fast the disk is, the number in the message is one that people can read.
+TEST(Parts, AStepFarTooLongIsSaidInFewDigits) {
+  EXPECT_EQ(refusal_of(4e6),
+            "run.dt: the fastest disk moves 2000 radii in one step, more than 500; choose a smaller dt "
+            "or the exact method");
+  EXPECT_THAT(refusal_of(6.25e100), testing::HasSubstr(" moves 2.5e+50 radii "));
 }
 
 TEST(Parts, NoDiskMovesMoreThanHalfItsRadius) {
