@@ -37,6 +37,10 @@ void check_size(const char* what, Dimension dimension, double value) {
 
 // One coordinate of a disk that is to lie inside the box.
 void check_coordinate(const char* what, double c, double radius, double size, bool periodic) {
+  if (!periodic && !(radius <= size / 2.0)) {
+    fail_input("radius", fmt::format("is {}", radius),
+               fmt::format("expected at most {}, half the box, for a disk that has to lie inside it", size / 2.0));
+  }
   const bool inside = periodic ? c >= 0.0 && c < size : c >= radius && c <= size - radius;
   if (!inside) {
     fail_input(what, fmt::format("is {}", c),

@@ -118,6 +118,10 @@ TEST(CaromCErrors, ShortArraysAndNumbersThatAreNone) {
   const std::uint64_t before = carom_hash(world);
   const carom_disk bad{nan_number, 5.0, 0.0, 0.0, 0.1, 1.0, 0};
   EXPECT_EQ(carom_add(world, &bad, nullptr), CAROM_INPUT);
+  const carom_disk large{10.0, 5.0, 0.0, 0.0, 5.5, 1.0, 0};  // no place in the box is one for it
+  EXPECT_EQ(carom_add(world, &large, nullptr), CAROM_INPUT);
+  EXPECT_STREQ(carom_error(world),
+               "radius: is 5.5; expected at most 5, half the box, for a disk that has to lie inside it");
   EXPECT_EQ(carom_set_velocity(world, 0, nan_number, 0.0), CAROM_INPUT);
   EXPECT_EQ(carom_run_until(world, nan_number), CAROM_INPUT);
   EXPECT_EQ(carom_disks_at(world, nan_number, disks, 4, &count, nullptr), CAROM_INPUT);
