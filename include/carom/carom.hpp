@@ -107,6 +107,17 @@ class World {
     disks(all);
     return all;
   }
+  // *time, where it is given: the time that they are of.
+  std::vector<carom_disk> disks_at(double t, double* time = nullptr) const {
+    std::vector<carom_disk> then(size());  // enough unless a sink took some in this step, which are there again
+    std::size_t count = 0;
+    if (carom_disks_at(world_, t, then.data(), then.size(), &count, time) != CAROM_OK) {
+      then.resize(count);
+      check(carom_disks_at(world_, t, then.data(), then.size(), &count, time));
+    }
+    then.resize(count);
+    return then;
+  }
   std::vector<carom_contact> contacts() const {
     std::vector<carom_contact> met(size());  // mostly enough
     std::size_t count = 0;

@@ -175,7 +175,24 @@ TEST(CaromHpp, DisksOfATimeWithinTheLastStep) {
     EXPECT_EQ(carom_disks_at(world.get(), within, nullptr, 2, &count, &time), CAROM_INPUT);
     EXPECT_EQ(carom_disks_at(world.get(), -0.5, then.data(), 2, &count, &time), CAROM_INPUT);
     EXPECT_THAT(carom_error(world.get()), HasSubstr("before the last step"));
+    EXPECT_EQ(world.disks_at(within, &time).size(), 2U);
+    EXPECT_EQ(world.disks_at(within).front().x, then[0].x);
+    EXPECT_EQ(status_of([&] { world.disks_at(-0.5); }), CAROM_INPUT);
   }
+}
+
+// More than size(): a disk that a sink took in the last step is there before that.
+TEST(CaromHpp, DisksOfATimeBeforeASinkTookThem) {
+  carom_scene scene = box(CAROM_EXACT);
+  scene.right = CAROM_SINK;
+  World world(scene);
+  ASSERT_TRUE(world.add({scene.width - 2.0, 4.0, 1.0, 0.0, 0.5, 1.0, 0}));
+  while (world.removed() == 0 && !world.done()) world.step();
+  ASSERT_EQ(world.size(), 0U);
+  double time = 0.0;
+  ASSERT_EQ(world.disks_at(1.25, &time).size(), 1U);
+  EXPECT_EQ(world.disks_at(1.25).front().x, scene.width - 0.75);
+  EXPECT_EQ(time, 1.25);
 }
 
 TEST(CaromHpp, AnEmptyWorldNeedsNoArrays) {
