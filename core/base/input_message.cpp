@@ -65,10 +65,6 @@ std::string in_quotes(std::string_view text) {
   return fmt::format("\"{}...\"", text.substr(0, longest));
 }
 
-bool has_near_name(std::span<const std::string_view> known, std::string_view name) {
-  return is_near(name, nearest_name(name.substr(0, 60), known));
-}
-
 std::string expected_one_of(std::span<const std::string_view> known, std::string_view name) {
   if (known.size() == 1) return fmt::format("expected {}", known.front());
   const std::string_view nearest = nearest_name(name.substr(0, 60), known);

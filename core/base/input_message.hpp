@@ -21,7 +21,4 @@ std::string in_quotes(std::string_view text);
 // "expected one of a, b, c (nearest: b)" for a name that is none of them; the nearest only if it is near.
 std::string expected_one_of(std::span<const std::string_view> known, std::string_view name);
 
-// Does expected_one_of() name a nearest one?
-bool has_near_name(std::span<const std::string_view> known, std::string_view name);
-
 }  // namespace carom

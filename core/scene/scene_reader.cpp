@@ -86,10 +86,9 @@ std::string without_ticks(std::string_view markdown) {
   return text;
 }
 
-// " (gravity is a key of [physics])" for a key that other tables of a scene have; empty where none has it, or a key of
-// this table is as good a guess.
-std::string where_it_belongs(std::string_view table, std::string_view name) {
-  if (has_near_name(key_names(table), name)) return "";
+// " (gravity is a key of [physics])" for a key that other tables of a scene have, whatever key of this table is like it
+// (select is like seed); empty where none has it.
+std::string where_it_belongs(std::string_view name) {
   std::string tables;
   for (const SceneTable& other : scene_tables()) {
     if (other.name.find('.') != std::string_view::npos || find_scene_key(other.name, name) == nullptr) continue;
@@ -228,8 +227,7 @@ TableReader::TableReader(const SceneOrigin& origin, std::string path, const toml
     : origin_(&origin), path_(std::move(path)), kind_(kind.empty() ? table_of_path(path_) : kind), table_(&table) {
   for (const auto& [name, node] : table) {
     if (find_scene_key(kind_, name.str()) == nullptr) {
-      fail(name.str(), "unknown key",
-           expected_one_of(key_names(kind_), name.str()) + where_it_belongs(kind_, name.str()));
+      fail(name.str(), "unknown key", expected_one_of(key_names(kind_), name.str()) + where_it_belongs(name.str()));
     }
   }
 }

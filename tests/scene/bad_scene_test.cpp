@@ -57,6 +57,8 @@ const Fault unknown_names[] = {
     {"KeyOfSeveralTables", "t_end", "every = 1\nt_end", "23: run.every: ", "(every is a key of [output], [analysis])"},
     {"KeyOfTheFile", "t_end", "title = \"gas\"\nt_end",
      "23: run.title: ", "(title is a key of the file itself, above all tables)"},
+    {"KeyOfTheFileLikeOneHere", "[run]", "[output]\nseed = 7\n[run]",
+     "21: output.seed: ", "(nearest: select) (seed is a key of the file itself, above all tables)"},
     {"Section", "[physics]", "[phsyics]", "10: phsyics: ", "(nearest: physics)"},
     {"SideKind", "left = \"wall\"", "left = \"wal\"", "7: box.left: ", "unknown name \"wal\""},
     {"SideKindInTable", "left = \"wall\"", "left = { kind = \"wal\" }", "7: box.left.kind: ", "unknown name \"wal\""},
