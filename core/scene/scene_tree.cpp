@@ -10,13 +10,19 @@ namespace carom {
 
 namespace {
 
-// Puts quotes around the digits of "seed = digits" in the line numbered line (from 1). False if it is another line.
-bool quote_seed(std::string& text, std::size_t line) {
+// Where a line of the text begins, lines numbered from 1; npos where it has fewer.
+std::size_t begin_of_line(std::string_view text, std::size_t line) {
   std::size_t begin = 0;
   for (std::size_t k = 1; k < line && begin != std::string::npos; ++k) {
     begin = text.find('\n', begin);
     if (begin != std::string::npos) ++begin;
   }
+  return begin;
+}
+
+// Puts quotes around the digits of "seed = digits" in the line numbered line (from 1). False if it is another line.
+bool quote_seed(std::string& text, std::size_t line) {
+  const std::size_t begin = begin_of_line(text, line);
   if (begin == std::string::npos) return false;
   const std::size_t name = text.find_first_not_of(" \t", begin);
   if (name == std::string::npos || text.compare(name, 4, "seed") != 0) return false;
@@ -46,6 +52,23 @@ std::size_t skip_string(std::string_view text, std::size_t at) {
     }
   }
   return text.size();
+}
+
+// What the parser, which stopped at this place, would rather have had. Two things are often written behind a number: a
+// decimal comma and a unit.
+std::string expected_at(std::string_view text, const toml::source_position& place) {
+  const std::string valid = "expected valid TOML 1.0";
+  const std::size_t begin = begin_of_line(text, std::max<std::size_t>(1, place.line));
+  if (begin == std::string::npos || place.column < 2) return valid;
+  const std::size_t at = begin + place.column - 1;
+  if (at >= text.size()) return valid;
+  const std::size_t before = text.find_last_not_of(" \t", at - 1);
+  if (before == std::string::npos || before < begin || !is_digit(text[before])) return valid;
+  if (text[at] == ',') return valid + ", where decimals have a point: 0.5";
+  const std::size_t after = std::min(text.find_first_of("=,]}#\n", at), text.size());
+  const bool key = after < text.size() && text[after] == '=';  // a comma is missing before it
+  const bool letter = (text[at] >= 'a' && text[at] <= 'z') || (text[at] >= 'A' && text[at] <= 'Z');
+  return !key && (letter || text[at] == '%') ? valid + ", where numbers have no unit" : valid;
 }
 
 // Throws InputError when the text has a stray character.
@@ -87,7 +110,7 @@ toml::table parse_scene_tree(std::string_view text, const std::string& name) {
     } catch (const toml::parse_error& e) {
       const std::size_t line = std::max<std::size_t>(1, e.source().begin.line);
       if (!retried && quote_seed(copy, line)) continue;
-      fail_input(fmt::format("{}:{}: TOML syntax", name, line), e.description(), "expected valid TOML 1.0");
+      fail_input(fmt::format("{}:{}: TOML syntax", name, line), e.description(), expected_at(copy, e.source().begin));
     }
   }
 }

@@ -17,6 +17,7 @@ using test::replaced;
 using test::sound_scene;
 using test::TestFolder;
 using testing::AllOf;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::MatchesRegex;
 using testing::StartsWith;
@@ -251,6 +252,19 @@ TEST(BadFile, SyntaxIsReportedWithItsLine) {
               AllOf(StartsWith("gas.toml:20: TOML syntax: "), HasSubstr("cannot redefine")));
   EXPECT_THAT(complaint("\xff\xfe\x01"), StartsWith("gas.toml:1: TOML syntax: "));
   EXPECT_THAT(complaint(replaced(sound_scene, "[box]", "[\x01]")), StartsWith("gas.toml:4: TOML syntax: "));
+}
+
+// What people write behind a number elsewhere.
+TEST(BadFile, DecimalCommasAndUnits) {
+  const auto width = [](const char* value) {
+    return complaint(replaced(sound_scene, "width = 20.0", std::string("width = ") + value));
+  };
+  EXPECT_THAT(width("20,0"), EndsWith("; expected valid TOML 1.0, where decimals have a point: 0.5"));
+  EXPECT_THAT(width("20 cm"), EndsWith("; expected valid TOML 1.0, where numbers have no unit"));
+  EXPECT_THAT(width("20.0cm # wide"), EndsWith(", where numbers have no unit"));
+  EXPECT_THAT(width("90 %"), EndsWith(", where numbers have no unit"));
+  EXPECT_THAT(width("{ a = 1 b = 2 }"), EndsWith("; expected valid TOML 1.0")) << "there a comma is missing";
+  EXPECT_THAT(width("20 = 30"), EndsWith("; expected valid TOML 1.0"));
 }
 
 TEST(BadFile, OnlyStringsAndCommentsLeaveAscii) {
