@@ -78,7 +78,7 @@ auto read_at(const CheckpointPlace& place, Read&& read) {
     return read(place.file.string());
   } catch (const InputError& error) {
     const fs::path previous = place.file.parent_path() / previous_checkpoint_name;
-    if (place.file.filename() == previous_checkpoint_name) throw;
+    if (place.file.filename() != checkpoint_name) throw;  // none was written before it: it is that, or another file
     try {
       read_checkpoint(previous.string());
     } catch (const InputError&) {

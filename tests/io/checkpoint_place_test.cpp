@@ -99,6 +99,10 @@ TEST_F(CheckpointFolder, TheOneBeforeIsNamedWhereItHelps) {
   EXPECT_THAT(complaint(), Not(HasSubstr("before")));
   save(unfinished_ / previous_checkpoint_name);
   EXPECT_THAT(complaint(), HasSubstr("; the one before it is whole: carom resume "));
+  const std::string scene = folder_.write("run/" + std::string(unfinished_name) + "/scene.toml", "[box]\n");
+  EXPECT_THAT(complaint_of([&] { read_checkpoint_at(find_checkpoint(scene)); }),
+              EndsWith("expected a checkpoint.carom, or the folder of a run"))
+      << "which the user took for one; checkpoint.carom may be whole";
   // It has none before itself.
   folder_.write("run/" + std::string(unfinished_name) + "/" + previous_checkpoint_name,
                 test::text_of(unfinished_ / previous_checkpoint_name).substr(0, 100));
