@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -114,8 +116,19 @@ std::string largest_text(const TrajectoryDifference& d) {
   return text;
 }
 
+// Is the first difference of times more than rounding of them? Then what follows says nothing of the paths.
+bool are_of_other_times(const TrajectoryDifference& d) {
+  const Difference& first = *d.first;
+  return std::string_view(first.quantity) == "time" && std::max(d.frames_a, d.frames_b) > 1 &&
+         first.by > 1e-9 * std::max(std::abs(first.a), std::abs(first.b));
+}
+
 std::string text_of(const TrajectoryDifference& d) {
   std::string text = fmt::format("different: first in {}\n", text_of(*d.first)) + largest_text(d);
+  if (are_of_other_times(d)) {
+    text +=
+        "  Frames go by their order, and from that one on they are of other times: --times or --at compares some.\n";
+  }
   if (d.frames_a != d.frames_b) text += fmt::format("  frames  {} against {}\n", d.frames_a, d.frames_b);
   return text;
 }

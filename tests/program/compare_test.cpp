@@ -14,6 +14,7 @@ using Json = nlohmann::ordered_json;
 using test::Outcome;
 using test::text_of;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 // One disk in a box periodic from left to right, at the places and velocities given, a frame each.
 std::string trajectory(const std::vector<std::string>& disks, double every = 0.1) {
@@ -57,6 +58,14 @@ TEST_F(Compare, AToleranceForgivesUpToItself) {
   o = compare("--tolerance 0.2");
   EXPECT_THAT(o.out, HasSubstr("different: first in frame 2 (t = 0.1), disk 0, vx: 3 against 3.25"));
   EXPECT_EQ(Json::parse(compare("--tolerance 0.2 --json").out)["tolerance"], 0.2);
+}
+
+TEST_F(Compare, FramesOfOtherTimesAreToldFromOtherPaths) {
+  write("late.xyz", trajectory({"1 2 3 4", "9.9995 2 3 4"}, 0.2));
+  EXPECT_THAT(carom("compare a.xyz late.xyz").out, HasSubstr("\n  Frames go by their order, and from that one on"));
+  EXPECT_THAT(compare("").out, Not(HasSubstr("Frames go by their order")));
+  write("late.xyz", trajectory({"1 2 3 4", "9.9995 2 3 4"}, 0.1 * (1.0 + 1e-15)));
+  EXPECT_THAT(carom("compare a.xyz late.xyz").out, Not(HasSubstr("Frames go by their order"))) << "but for rounding";
 }
 
 TEST_F(Compare, FieldsAndTimesAreChosen) {
