@@ -271,6 +271,31 @@ CollapseForesight foresee_collapse(const Scene& scene, const Disks& start) {
   return first < scene.run.t_end ? CollapseForesight{true, first} : CollapseForesight{};
 }
 
+namespace {
+
+// Is it a straight line from one periodic side to the other that moves along itself? Then it looks the same at all
+// times, and does nothing to disks unless it is rough.
+bool runs_round(const InnerWall& wall, const Domain& box) {
+  if (!wall.motion.moves() || wall.points.size() != 2) return false;
+  const Vec2 a = wall.points.front(), b = wall.points.back(), along = wall.motion.along;
+  const bool round_x = box.periodic_x() && along.y == 0.0 && a.y == b.y && std::abs(b.x - a.x) >= box.width;
+  const bool round_y = box.periodic_y() && along.x == 0.0 && a.x == b.x && std::abs(b.y - a.y) >= box.height;
+  return round_x || round_y;
+}
+
+void add_smooth_drives(const Scene& scene, std::vector<std::string>& troubles) {
+  if (scene.physics.surfaces.are_rough() && scene.physics.surfaces.walls.acts()) return;
+  for (std::size_t k = 0; k < scene.walls.size(); ++k) {
+    if (!runs_round(scene.walls[k], scene.box)) continue;
+    troubles.push_back(
+        fmt::format("walls.{} moves along itself and is smooth, which does nothing to disks: they are dragged along "
+                    "with physics.roughness and box.wall_roughness",
+                    k));
+  }
+}
+
+}  // namespace
+
 std::vector<std::string> foreseen_troubles(const Scene& scene, const StepForesight& steps, const Population& population,
                                            const CollapseForesight& collapse) {
   std::vector<std::string> troubles;
@@ -302,6 +327,7 @@ std::vector<std::string> foreseen_troubles(const Scene& scene, const StepForesig
                     "{:g}: give a limit or a sink",
                     population.fill, source_fill));
   }
+  add_smooth_drives(scene, troubles);
   return troubles;
 }
 

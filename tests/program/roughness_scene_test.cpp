@@ -167,6 +167,25 @@ TEST_F(RoughRun, IsToldByCheck) {
   EXPECT_THAT(carom("check small.toml").out, Not(HasSubstr("rough")));
 }
 
+// Couette's flow, where the wall was forgotten: nothing moves, and nothing else would say why.
+TEST_F(RoughRun, CheckSaysThatASmoothWallDragsNothing) {
+  const auto check = [&](const std::string& box, const std::string& physics, const std::string& points) {
+    write("s.toml", "[box]\nwidth = 10.0\nheight = 10.0\nleft = \"periodic\"\nright = \"periodic\"\n" + box +
+                        "[physics]\n" + physics + "[[walls]]\npoints = " + points +
+                        "\nmotion = { velocity = [1.0, 0.0] }\n[[disks]]\ncount = 1\npositions = [[5.0, 5.0]]\n"
+                        "radius = 0.5\nmass = 1.0\n[run]\nt_end = 1.0\n");
+    return carom("check s.toml").out;
+  };
+  const std::string rough_disks = "roughness = { tangential_restitution = 0.5 }\n";
+  const auto trouble = HasSubstr("walls.0 moves along itself and is smooth");
+  EXPECT_THAT(check("", "", "[[0.0, 1.0], [10.0, 1.0]]"), trouble);
+  EXPECT_THAT(check("", rough_disks, "[[10.0, 1.0], [0.0, 1.0]]"), trouble);
+  EXPECT_THAT(check("wall_roughness = { tangential_restitution = 0.5 }\n", rough_disks, "[[0.0, 1.0], [10.0, 1.0]]"),
+              Not(trouble));
+  EXPECT_THAT(check("", "", "[[0.0, 1.0], [9.0, 1.0]]"), Not(trouble)) << "a gate, which moves";
+  EXPECT_THAT(check("", "", "[[0.0, 1.0], [10.0, 2.0]]"), Not(trouble));
+}
+
 TEST_F(RoughRun, ComparesSpins) {
   ASSERT_EQ(carom("run rough.toml -o a --quiet").status, 0);
   write("other.toml", replaced(test::text_of(at("rough.toml")), "spin_temperature = 1.0", "spin = 1.0"));
