@@ -1,12 +1,16 @@
 #include "run/running_analysis.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <limits>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "core/base/check.hpp"
 #include "core/measure/follow_disks.hpp"
+#include "core/scene/scene_names.hpp"
 #include "io/plots/analysis_plots.hpp"
 #include "io/tables/analysis_file.hpp"
 
@@ -16,6 +20,21 @@ namespace {
 
 // Often enough to show the progress of a long run, and rarely enough to cost nothing.
 constexpr std::chrono::seconds write_interval{5};
+
+// Does the first sample, if there is one, have no disk?
+bool begins_empty(const AnalysisRecord& record) {
+  return !record.series.disks.empty() && record.series.disks.front() == 0.0;
+}
+
+// Those that the scene asks for among what is followed from the first sample on.
+std::vector<std::string_view> followed_names(const Scene& scene) {
+  std::vector<std::string_view> names;
+  for (const Quantity q :
+       {Quantity::displacement, Quantity::velocity_autocorrelation, Quantity::bond_autocorrelation}) {
+    if (scene.analysis.wants(q)) names.push_back(quantity_names[static_cast<std::size_t>(q)]);
+  }
+  return names;
+}
 
 }  // namespace
 
@@ -27,7 +46,8 @@ RunningAnalysis::RunningAnalysis(const Scene& scene, const OutputFolder& folder,
       folder_(folder),
       run_(std::move(run)),
       record_(std::move(from)),
-      warned_(record_.displacement.doubtful > 0) {
+      warned_(record_.displacement.doubtful > 0),
+      warned_of_none_(begins_empty(record_)) {
   if (!goes_with(record_, scene)) {
     throw InputError(
         "the checkpoint's analysis does not belong to its scene; expected the checkpoint that the run wrote");
@@ -63,6 +83,15 @@ bool RunningAnalysis::draw() const {
 }
 
 std::string RunningAnalysis::take_warning() {
+  if (begins_empty(record_) && !std::exchange(warned_of_none_, true)) {
+    const std::vector<std::string_view> names = followed_names(scene_);
+    if (!names.empty()) {
+      return fmt::format(
+          "analysis: {} {} of the disks of the first sample, and at t = {:g} there are none, so that nothing is "
+          "measured; use a later analysis.start",
+          fmt::join(names, ", "), names.size() == 1 ? "is" : "are", record_.series.time.front());
+    }
+  }
   if (warned_ || record_.displacement.doubtful == 0) return "";
   warned_ = true;
   return fmt::format(

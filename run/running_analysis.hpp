@@ -36,7 +36,7 @@ class RunningAnalysis {
   // One plot for each quantity. Returns false, and draws nothing, where gnuplot is not installed.
   bool draw() const;
 
-  // One line, once, or empty.
+  // One line, each once, or empty.
   std::string take_warning();
 
  private:
@@ -45,7 +45,8 @@ class RunningAnalysis {
   BlockRunner run_;
   AnalysisRecord record_;
   WallClock::time_point written_{};
-  bool warned_ = false;
+  bool warned_ = false;          // of moves too long to follow
+  bool warned_of_none_ = false;  // of a first sample without disks
 };
 
 }  // namespace carom

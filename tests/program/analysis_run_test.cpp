@@ -102,6 +102,23 @@ TEST_F(LongAnalysisRun, InAShearFlowToo) {
   }
 }
 
+// Disks that come later are followed from no sample on; a number for each time would be none.
+TEST_F(AnalysisRun, AFirstSampleWithoutDisksIsWarnedOf) {
+  write("source.toml",
+        "[box]\nwidth = 10.0\nheight = 10.0\n[[sources]]\nside = \"left\"\nrate = 5.0\nradius = 0.1\nmass = 1.0\n"
+        "velocities = { maxwell = 1.0 }\n[run]\nt_end = 2.0\n[analysis]\n"
+        "what = [\"displacement\", \"density\", \"velocity_autocorrelation\"]\n");
+  const std::string said =
+      "analysis: displacement, velocity_autocorrelation are of the disks of the first sample, and at t = 0 there are "
+      "none, so that nothing is measured; use a later analysis.start\n";
+  EXPECT_THAT(carom("run source.toml -o a").err, ::testing::HasSubstr(said));
+  const auto begin = [&](const char* options) {
+    return carom(std::string("run source.toml -o b --force ") + options).err;
+  };
+  EXPECT_THAT(begin("--set analysis.start=1.0"), ::testing::Not(::testing::HasSubstr("first sample")));
+  EXPECT_THAT(begin("--set 'analysis.what=[\"density\"]'"), ::testing::Not(::testing::HasSubstr("first sample")));
+}
+
 TEST_F(AnalysisRun, AKilledRunLeavesAFileThatOpens) {
   write("long.toml", test::busy_scene("pairwise", analysis, "none"));
   const pid_t run = start({"run", "long.toml", "--t-end", "1e6", "--set", "analysis.every=0.1", "--set",
