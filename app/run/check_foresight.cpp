@@ -311,7 +311,10 @@ std::vector<std::string> foreseen_troubles(const Scene& scene, const StepForesig
   if (uses_dt(scene) && dt > std::min(steps.at_start, steps.later)) {
     const bool late = dt <= steps.at_start, split = scene.run.method != Method::exact;
     const char* const when = split ? " at the speeds that disks will have" : " of disks from sources";
-    const char* const what = split ? "steps will be split" : "collisions of Brownian disks will be wrong";
+    const bool hopeless = split && !(scene.physics.diffusion > 0.0) && dt > most_parts * steps.at_start;
+    const char* const what = hopeless ? "the run will stop at once, with status 3"
+                             : split  ? "steps will be split"
+                                      : "collisions of Brownian disks will be wrong";
     troubles.push_back(fmt::format("dt = {:g} is longer than the safe step{}: {}; take dt <= {:.2g}", dt,
                                    late ? when : "", what, std::min(steps.at_start, steps.later)));
   }

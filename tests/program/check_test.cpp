@@ -97,6 +97,9 @@ TEST_F(Check, TheSafeStepIsThatAfterTheFall) {
   EXPECT_THAT(troubles(check(longer)), HasSubstr("longer than the safe step at the speeds that disks will have"));
   EXPECT_THAT(carom("check " + longer).out, HasSubstr("0.0616 after falling (speed 4); dt is longer"));
   EXPECT_THAT(carom("run --quiet --json " + longer + " --t-end 5").out, HasSubstr("the step is split into 2 parts"));
+  const std::string endless = "fall.toml --method pairwise --dt 600 --t-end 6e3";
+  EXPECT_THAT(troubles(check(endless)), HasSubstr(": the run will stop at once, with status 3; take dt <= "));
+  EXPECT_EQ(carom("run " + endless).status, 3);
 }
 
 // The velocities of the start are forgotten, and exact splits no step: check warns where the run does, of sqrt(2 D dt)
