@@ -212,7 +212,10 @@ class Simulation:
             entry[1] = _next_multiple(entry[0], self.time)
 
     def __repr__(self):
-        return f"<carom.Simulation, {len(self)} disks, t = {self.time:g}, {self.collisions} collisions>"
+        try:
+            return f"<carom.Simulation, {len(self)} disks, t = {self.time:g}, {self.collisions} collisions>"
+        except RuntimeError:  # loggers and debuggers of other threads ask, too
+            return "<carom.Simulation, in a step of another thread>"
 
     def picture(self) -> bytes:
         """A picture of the disks now, as `carom render` draws it: the bytes of a PNG file."""

@@ -44,6 +44,27 @@ def test_a_simulation_in_a_step_answers_no_other_thread():
     assert not asks
 
 
+def test_its_text_for_another_thread_says_that_it_steps():
+    sim = carom.Simulation(gas(3000, t_end=1e9), threads=1)
+    texts = {repr(sim)}
+    over = threading.Event()
+
+    def other_thread():
+        while not over.is_set():
+            texts.add(repr(sim))  # raised, once
+            time.sleep(0)
+
+    other = threading.Thread(target=other_thread)
+    other.start()
+    for _ in range(1000):  # a few are enough
+        sim.step(20)
+        if "<carom.Simulation, in a step of another thread>" in texts or not other.is_alive():
+            break
+    over.set()
+    other.join()
+    assert "<carom.Simulation, in a step of another thread>" in texts
+
+
 @pytest.mark.parametrize("threads", [1, 2])
 def test_python_ends_while_a_daemon_thread_steps(threads, tmp_path):
     script = """if True:
