@@ -45,10 +45,10 @@ constexpr SceneTable tables[] = {
     {"growth", "`[growth]`", "How `positions = \"growth\"` goes about it; only where some group grows."},
     {"sources", "`[[sources]]`",
      "Disks that come while the run goes on, the k-th at time k / `rate` and none at the end, through a side or "
-     "anywhere in a region. A disk that would overlap another waits, and is tried again at a new place: by time "
-     "stepping at every step, by `exact` at the source's next times k / `rate` alone. Where room is scarce fewer come "
-     "than `rate` says, and by `exact` fewer than by time stepping. How many wait is counted (`waiting`), and a run "
-     "warns at its end where more than a twentieth of them do."},
+     "anywhere in a region. A disk that would overlap another waits, and is tried at other places: by time "
+     "stepping at one in every step; by `exact` at 32 at each time k / `rate`, and while fewer than eight wait three "
+     "times in between. Where room is scarce fewer come than `rate` says. How many wait is counted (`waiting`), and a "
+     "run warns at its end where more than a twentieth of them do."},
     {"walls", "`[[walls]]`",
      "Inner walls: segments without thickness, which disks touch from both sides and at their ends: funnels, shelves, "
      "pockets (`kind = \"sink\"`), slits; pistons, paddles and shakers where they move."},

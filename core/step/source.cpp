@@ -135,8 +135,24 @@ bool has_room(const Disks& d, const Domain& box, const Disk& newcomer) {
   return !meets(d, box, newcomer, 0, d.size());
 }
 
+namespace {
+
+// Puts the disk, drawn with its first place, where it has room; false if it has none where it is tried.
+bool find_place(const Scene& scene, const Domain& box, std::size_t index, Count step, const PlacesTried& places,
+                const std::function<bool(const Disk&)>& room, Disk& disk) {
+  const Stream stream = stream_of(Stream::source_place, index);
+  for (std::uint32_t k = 0; k < places.count; ++k) {
+    const std::uint32_t place = places.first + k;
+    if (place > 0) draw_place(box, scene.sources[index], uniforms(scene.seed, stream, disk.id, step, place), disk);
+    if (inside(box, disk) && room(disk)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 void emit_from_source(const Scene& scene, const Domain& box, State& state, std::size_t index, Count due, Count step,
-                      const std::function<bool(const Disk&)>& room) {
+                      const PlacesTried& places, const std::function<bool(const Disk&)>& room) {
   if (scene.sources[index].limit) due = std::min(due, *scene.sources[index].limit);
   Count& emitted = state.sources[index].emitted;
   while (emitted < due) {
@@ -146,8 +162,8 @@ void emit_from_source(const Scene& scene, const Domain& box, State& state, std::
                       "lower rate, or a limit",
                       state.next_id));
     }
-    const Disk disk = draw_emission(scene, box, index, state.next_id, emitted, step);
-    if (!inside(box, disk) || !room(disk)) break;
+    Disk disk = draw_emission(scene, box, index, state.next_id, emitted, step);
+    if (!find_place(scene, box, index, step, places, room, disk)) break;
     append(state.disks, disk);
     ++state.next_id;
     ++emitted;
@@ -192,7 +208,7 @@ void emit_due(const Scene& scene, State& state, double t, Count step, const std:
   if (scene.sources.empty()) return;
   const Domain box = box_at(scene.box, t);
   for (std::size_t s = 0; s < scene.sources.size(); ++s) {
-    emit_from_source(scene, box, state, s, due_by(scene.sources[s], t), step, room);
+    emit_from_source(scene, box, state, s, due_by(scene.sources[s], t), step, {}, room);
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 
 #include "core/disks/state.hpp"
@@ -22,10 +23,17 @@ bool meets(const Disks& disks, const Domain& box, const Disk& newcomer, std::siz
 // Does the disk fit without overlapping any of disks? Looks at all of them.
 bool has_room(const Disks& disks, const Domain& box, const Disk& newcomer);
 
+// At how many places a disk is tried that finds no room, and the number of the first one among those that are drawn in
+// a step.
+struct PlacesTried {
+  std::uint32_t count = 1;
+  std::uint32_t first = 0;
+};
+
 // Source number `index` emits until it has emitted `due` disks (its limit at most) or one finds no room; adds what
 // waits to the waiting count. box: as above.
 void emit_from_source(const Scene& scene, const Domain& box, State& state, std::size_t index, Count due, Count step,
-                      const std::function<bool(const Disk&)>& room);
+                      const PlacesTried& places, const std::function<bool(const Disk&)>& room);
 
 // When a source's k-th disk comes, k = 1, 2, ...: k / rate.
 double emission_time(double rate, Count k);

@@ -9,12 +9,14 @@
 
 namespace carom {
 
-// Earliest time after state.time at which a window must end: the end of the run, the next emission time of a source
-// that has disks left, the end of the Brownian interval, the end of a piece of a side's motion.
+// Earliest time after state.time at which a window must end: the end of the run, the next time at which a source that
+// has disks left tries one, the end of the Brownian interval, the end of a piece of a side's motion.
 double next_cut(const Scene& scene, const State& state);
 
-// Every source whose emission time is state.time, but for rounding, emits what is due; what finds no room waits for the
-// source's next emission time and is drawn a new place then. Nothing here depends on where other windows end.
+// Every source whose emission time is state.time, but for rounding, emits what is due, each disk at the first of 32
+// places that has room. What finds none waits, and is tried again: at the source's emission times, and while fewer than
+// eight wait at a quarter, a half and three quarters of the time in between. Nothing here depends on where other
+// windows end.
 void emit_at_window_start(const Scene& scene, State& state, const std::function<bool(const Disk&)>& room);
 
 // Does a side that vibrates begin another piece of its motion at time t, where a window had to end? What was predicted

@@ -305,7 +305,7 @@ TEST(Emission, EnergyOfNewDisksIsCounted) {
   s.sources = {source};
   State state = test::state_of(s, {});
   state.disks.inertia = 0.5;
-  emit_from_source(s, s.box, state, 0, 20, 0, [](const Disk&) { return true; });
+  emit_from_source(s, s.box, state, 0, 20, 0, {}, [](const Disk&) { return true; });
   ASSERT_EQ(state.disks.size(), 20U);
   const Energy energy = energy_of(state.disks, s.physics.gravity);
   EXPECT_GT(energy.potential, 0.0);
@@ -389,7 +389,7 @@ TEST(Emission, OfThoseThatWaitedNoMoreComeThanTheLimit) {
   source.limit = 2;
   s.sources = {source};
   State state = test::state_of(s, {});
-  emit_from_source(s, s.box, state, 0, 5, 5, [](const Disk&) { return true; });
+  emit_from_source(s, s.box, state, 0, 5, 5, {}, [](const Disk&) { return true; });
   EXPECT_EQ(state.disks.size(), 2U);
   EXPECT_EQ(state.counters.waiting, 0U);
 }
