@@ -12,8 +12,8 @@ namespace {
 // Disks a cell, about: a run of them that a chord reaches has a few too many at each end.
 constexpr std::size_t disks_a_cell = 2;
 
-// Rows of at least a third of r_max, as many as there are disks for along a side. Where a side is periodic, three rows
-// above and three below have to be different ones.
+// Rows of r_max / rows_ahead or more, as many as there are disks for along a side. Where a side is periodic, those
+// above and below have to be different ones.
 std::size_t rows_for(const Domain& box, double r_max, std::size_t rows_ahead, std::size_t disks) {
   const double most = std::sqrt(static_cast<double>(disks)) + 1.0;
   const auto rows = static_cast<std::size_t>(cells_along(box.height, r_max / static_cast<double>(rows_ahead), most));

@@ -24,8 +24,8 @@ struct DistanceBins {
   double wall_margin = 0.0;  // see DistancePlan
 };
 
-// The disks sorted into rows across the box, and along each into cells. A row's height is a third of r_max or more, so
-// that partners lie in the three rows above and below; in each of these, in cells that a chord of the circle of radius
+// The disks sorted into rows across the box, and along each into cells. A row's height is half of r_max or more, so
+// that partners lie in the two rows above and below; in each of these, in cells that a chord of the circle of radius
 // r_max reaches. A box that is low for that and periodic has one row.
 class DistanceCells {
  public:
