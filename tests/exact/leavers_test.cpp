@@ -1,6 +1,6 @@
-// Disks that leave an exact run through sinks are taken out of the lists that are there, once nobody can ask for the
-// window in which they left: the reference's bits, in frames within windows too, and where a program changes disks
-// between two windows.
+// Disks that leave an exact run through sinks are taken out of the lists that are there when the next window starts, as
+// frames of the last one need them until then: the reference's bits, in such frames too, and where a program changes
+// disks between two windows.
 #include <gtest/gtest.h>
 
 #include <algorithm>
