@@ -10,12 +10,21 @@
 
 namespace carom {
 
+// Is every stored row in this span, which may go on at the other end of the box?
+inline bool has_stored_rows(const GridLevel& level, Span rows) {
+  const std::uint32_t first = level.first_stored;
+  const std::uint32_t ahead = first >= rows.first ? first - rows.first : level.rows - rows.first + first;
+  return ahead + level.stored_rows <= rows.count;
+}
+
 // For a span of rows of the box, the places of the rows among those that are stored. Where the span reaches from rows
 // nearer to the last stored row to rows nearer to the first, it is all stored rows: disks may have flown there, and of
-// two that are near each other each must find the other.
+// two that are near each other each must find the other. So it is where the span has them all: its last row may lie
+// nearer, round the box, to the first one stored.
 inline Span stored_span(const GridLevel& level, Span rows) {
   if (rows.count == level.rows) return {0, std::min(level.rows, level.stored_rows)};
   if (level.stored_rows >= level.rows) return rows;
+  if (has_stored_rows(level, rows)) return {0, level.stored_rows};
   const std::uint32_t end = rows.first + rows.count - 1;
   const std::uint32_t first = level.place_of_row(rows.first);
   const std::uint32_t last = level.place_of_row(end < level.rows ? end : end - level.rows);

@@ -58,6 +58,32 @@ TEST(ChangesInParts, AllNearAPlaceAreFoundAndFewOthers) {
   }
 }
 
+// A search that has all rows of a part and goes on beyond it, to rows that lie nearer to its first one round the box.
+TEST(ChangesInParts, AllAreFoundWhereTheSearchIsLargerThanAPart) {
+  for (const std::string sides : {"periodic", "wall"}) {
+    const Scene scene = gas_of(sides);
+    for (const Threads threads : {Threads{2, 1}, Threads{3, 8}}) {
+      const auto engine = make_parallel_engine(scene, initial_state(scene), threads);
+      engine->step();
+      const Disks& d = engine->state().disks;
+      test::Draws draw(7);
+      for (int k = 0; k < 40; ++k) {
+        const Vec2 place{draw.in(0.0, side), draw.in(0.0, side)};
+        const double half = draw.in(0.3, 0.5) * side;
+        std::set<std::size_t> seen;
+        ASSERT_TRUE(engine->visit_near(place, half_width, half, [&](std::size_t i) { seen.insert(i); }));
+        std::size_t missed = 0;
+        for (std::size_t i = 0; i < d.size(); ++i) {
+          const bool near = distance(d.x[i], place.x, sides == "periodic") <= half_width &&
+                            distance(d.y[i], place.y, sides == "periodic") <= half;
+          missed += near && seen.count(i) == 0;
+        }
+        EXPECT_EQ(missed, 0U) << sides << ", " << threads.count << " threads, y = " << place.y << " +- " << half;
+      }
+    }
+  }
+}
+
 std::size_t place_of(const Disks& d, DiskId id) {
   return static_cast<std::size_t>(std::find(d.id.begin(), d.id.end(), id) - d.id.begin());
 }
