@@ -35,11 +35,9 @@ PairCounts all_pairs(const Disks& d, const Domain& box, const DistanceBins& bins
     ++found.centres;
     for (std::size_t j = 0; j < d.size(); ++j) {
       if (j == i) continue;
-      double dx = d.x[j] - d.x[i];
-      double dy = d.y[j] - d.y[i];
-      if (box.periodic_x()) dx = nearest_image(dx, box.width);
-      if (box.periodic_y()) dy = nearest_image(dy, box.height);
-      const double bin = std::sqrt(dx * dx + dy * dy) * (static_cast<double>(bins.bins) / bins.r_max);
+      const Vec2 apart = nearest_image(Vec2{d.x[j] - d.x[i], d.y[j] - d.y[i]}, box);
+      const double r = std::sqrt(apart.x * apart.x + apart.y * apart.y);
+      const double bin = r * (static_cast<double>(bins.bins) / bins.r_max);
       if (bin < static_cast<double>(bins.bins)) ++found.counts[static_cast<std::size_t>(bin)];
     }
   }
@@ -74,6 +72,45 @@ TEST(PairDistances, CountsAreThoseOfAllPairsOnAnyNumberOfThreads) {
         EXPECT_EQ(found.counts, expected.counts) << c.width << " x " << c.height << ", " << n << " disks, " << threads;
       }
     }
+  }
+}
+
+// So few that a row has one cell, where disks stand in the order in which they are stored.
+TEST(PairDistances, CountsOfVeryFewDisksAreThoseOfAllPairs) {
+  test::Draws draws(15);
+  for (const Case& c : cases) {
+    Domain box{c.width, c.height};
+    test::set_sides(box, c.left_right, c.bottom_top);
+    const DistanceBins bins{c.r_max, 7, 0.0};
+    for (std::size_t n = 2; n < 7; ++n) {
+      for (int k = 0; k < 40; ++k) {
+        const Disks disks = strewn(draws, box, n);
+        EXPECT_EQ(count_pairs(disks, box, bins).counts, all_pairs(disks, box, bins).counts)
+            << c.width << " x " << c.height << ", " << n << " disks";
+      }
+    }
+  }
+}
+
+TEST(PairDistances, TwoDisksOfOneCellMeetRoundThePeriodicSide) {
+  const Domain box = test::box_of(10.0, 10.0, true, false);
+  for (const double first : {0.3, 9.6}) {
+    const Disks disks = test::disks_of({{first, 3.0}, {9.9 - first, 3.0}});
+    EXPECT_EQ(count_pairs(disks, box, {2.0, 2, 0.0}).counts, (std::vector<Count>{2, 0}));
+  }
+}
+
+// The images above are displaced; from two rows, which are one, to ten.
+TEST(PairDistances, CountsInAShearedBoxAreThoseOfAllPairs) {
+  test::Draws draws(16);
+  for (int k = 0; k < 60; ++k) {
+    const double r_max = 2.0;
+    Domain box = test::box_of(draws.in(2.0, 5.0) * r_max, draws.in(2.0, 5.0) * r_max, true, true);
+    box.shear = {1.0, box.height, draws.in(-0.5, 0.5) * box.width};
+    const Disks disks = strewn(draws, box, 100);
+    const DistanceBins bins{r_max, 9, 0.0};
+    EXPECT_EQ(count_pairs(disks, box, bins).counts, all_pairs(disks, box, bins).counts)
+        << box.width << " x " << box.height << ", offset " << box.shear.offset;
   }
 }
 
