@@ -3,9 +3,13 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <set>
+#include <utility>
 
 #include "core/disks/gravity.hpp"
 #include "core/disks/state_hash.hpp"
+#include "core/step/window_start.hpp"
 #include "parallel/simulation.hpp"
 #include "tests/support/disks_by_hand.hpp"
 #include "tests/support/reference_run.hpp"
@@ -65,6 +69,76 @@ TEST(WaitingDisks, EndNoWindowsInBetweenWhereManyWait) {
   EXPECT_EQ(end.counters.waiting, 999U);
   EXPECT_GE(end.counters.steps, 1000U);
   EXPECT_LE(end.counters.steps, 1040U);
+}
+
+// The places at which a source of one disk a unit of time tries one at time t, where no place has room.
+std::set<std::pair<double, double>> places_tried(const Scene& scene, State& state, double t) {
+  std::set<std::pair<double, double>> places;
+  state.time = t;
+  emit_at_window_start(scene, state, [&](const Disk& d) { return places.insert({d.x, d.y}), false; });
+  return places;
+}
+
+Scene of_one_source() {
+  Scene scene = test::scene_of(Method::exact, 20.0, 20.0, 0.0, 100.0);
+  scene.sources = {source_of(1.0, {1.0, 1.0}, {19.0, 19.0})};
+  return scene;
+}
+
+TEST(WaitingDisks, AreTriedAt32PlacesAndAtOthersAtEachQuarter) {
+  const Scene scene = of_one_source();
+  State state = test::state_of(scene, {});
+  std::set<std::pair<double, double>> all;
+  for (const double t : {1.0, 1.25, 1.5, 1.75, 2.0}) {
+    const auto places = places_tried(scene, state, t);
+    EXPECT_EQ(places.size(), 32U) << "t = " << t;
+    all.insert(places.begin(), places.end());
+  }
+  EXPECT_EQ(all.size(), 5U * 32U);
+  EXPECT_TRUE(places_tried(scene, state, 2.125).empty()) << "no quarter";
+}
+
+// Where other windows end then changes nothing.
+TEST(WaitingDisks, AreTriedAtQuartersWhileFewerThanEightWait) {
+  const Scene scene = of_one_source();
+  State state = test::state_of(scene, {});
+  EXPECT_TRUE(places_tried(scene, state, 0.75).empty()) << "none is due";
+  EXPECT_EQ(places_tried(scene, state, 7.25).size(), 32U);
+  EXPECT_EQ(next_cut(scene, state), 7.5);
+  EXPECT_EQ(places_tried(scene, state, 8.0).size(), 32U);
+  EXPECT_TRUE(places_tried(scene, state, 8.25).empty());
+  EXPECT_EQ(next_cut(scene, state), 9.0);
+  EXPECT_EQ(state.counters.waiting, 8U);
+}
+
+TEST(WaitingDisks, DoNotComeBeforeTheyAreDue) {
+  const Scene scene = of_one_source();
+  State state = test::state_of(scene, {});
+  state.time = 1.25;
+  emit_at_window_start(scene, state, [](const Disk&) { return true; });
+  EXPECT_EQ(state.counters.emitted, 1U);
+  EXPECT_EQ(state.counters.waiting, 0U);
+}
+
+// A run that goes on beyond its end, which lay a rounding behind an emission time or a quarter.
+TEST(WaitingDisks, AreTriedAtTheEndOfARunThatGoesOn) {
+  const Scene scene = of_one_source();
+  State state = test::state_of(scene, {});
+  for (const double t : {3.0, 3.25}) {
+    EXPECT_EQ(places_tried(scene, state, std::nextafter(t, std::numeric_limits<double>::max())).size(), 32U);
+  }
+}
+
+// Only half of the region is further than a radius inside the walls.
+TEST(WaitingDisks, AreInsideTheBoxWhereverTheyAreTried) {
+  Scene scene = test::scene_of(Method::exact, 20.0, 20.0, 0.0, 100.0);
+  scene.sources = {source_of(1.0, {0.0, 0.0}, {1.0, 20.0})};
+  State state = test::state_of(scene, {});
+  for (int k = 1; k <= 7; ++k) {
+    for (const auto& [x, y] : places_tried(scene, state, k)) {
+      EXPECT_TRUE(x >= 0.5 && y >= 0.5 && y <= 19.5) << x << ", " << y;
+    }
+  }
 }
 
 TEST(WaitingDisks, HaveTheReferencesBits) {
