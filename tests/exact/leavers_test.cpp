@@ -95,6 +95,21 @@ TEST(Leavers, HaveTheReferencesBitsWhereBrownianIntervalsBegin) {
   expect_bits_of_reference(leaking_gas("0.5", "diffusion = 1.0\n", 4.0, "dt = 0.05\n"), disks_at_start - 100);
 }
 
+// What is known of the leavers goes with the lists.
+TEST(Leavers, HaveTheReferencesBitsWhereMemoryIsGivenBackBetweenWindows) {
+  const Scene scene = leaking_gas("0.5", "", 6.0);
+  const auto reference = make_reference_engine(scene, initial_state(scene));
+  const auto engine = make_parallel_engine(scene, initial_state(scene), {1});
+  for (int window = 0; reference->state().time < scene.run.t_end; ++window) {
+    const double start = reference->state().time;
+    reference->step();
+    engine->step();
+    ASSERT_NO_FATAL_FAILURE(expect_same(*engine, *reference, start));
+    if (window % 2 == 1) engine->release_memory();
+  }
+  EXPECT_GT(engine->state().counters.removed, 50U);
+}
+
 // Of the reference, each change makes a new engine of the changed state.
 TEST(Leavers, MayBeChangedAroundBetweenWindows) {
   const Scene scene = leaking_gas("0.5");

@@ -9,6 +9,7 @@
 #include "core/disks/state_hash.hpp"
 #include "parallel/simulation.hpp"
 #include "tests/support/disks_by_hand.hpp"
+#include "tests/support/draws.hpp"
 
 namespace carom {
 namespace {
@@ -74,6 +75,22 @@ TEST(Newcomers, HaveTheReferencesBitsWhateverTheirRadii) {
   const Scene scene = scene_with({source_of(20.0, {2.0, 2.0}, {58.0, 38.0}, one_of({0.5, 0.2})),
                                   source_of(7.0, {2.0, 2.0}, {58.0, 38.0}, one_of({0.05, 1.1}))});
   expect_bits_of_reference(scene, test::state_of(scene, {}), 250);
+}
+
+// Larger than all of a gas that is listed already, or of another radius where all are equal.
+TEST(Newcomers, HaveTheReferencesBitsWhereTheGasHasOtherRadii) {
+  for (const bool mixed : {false, true}) {
+    for (const double radius : {0.1, 2.5}) {
+      const Scene scene = scene_with({source_of(2.0, {3.0, 3.0}, {57.0, 37.0}, constant(radius))});
+      test::Draws draws(3);
+      test::Ranges gas;
+      gas.radius_low = mixed ? 0.2 : 0.3;
+      gas.radius_high = 0.3;
+      gas.speed = 2.0;
+      const State start = test::state_of(scene, test::random_disks(draws, scene.box, 300, gas));
+      expect_bits_of_reference(scene, start, 315);
+    }
+  }
 }
 
 TEST(Newcomers, HaveTheReferencesBitsBesideASinkAndUnderGravity) {
