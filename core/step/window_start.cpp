@@ -22,8 +22,9 @@ constexpr std::uint32_t places_tried = 32;
 constexpr Count few_waiting = 8;
 constexpr Count tries_an_emission = 4;
 
+// Counts those that are due beyond the source's limit, too: after eight times a full place is full.
 bool tries_between(const Source& source, const SourceState& s, double t) {
-  const Count waiting = due_by(source, t) - s.emitted;
+  const Count waiting = emissions_due(source.rate, t) - s.emitted;
   return waiting > 0 && waiting < few_waiting;
 }
 

@@ -1,6 +1,7 @@
 // Disks of a source that find no room: where and when the exact method tries them again.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -60,15 +61,19 @@ TEST(WaitingDisks, ComeWithinAQuarterOfTheTimeBetweenTwoAfterThereIsRoom) {
   EXPECT_EQ(engine->state().counters.waiting, 2U);
 }
 
-// A disk at rest where the source is: after the first few, each that is due ends one window alone.
+// A disk at rest where the source is: after the first few, each that is due ends one window alone, also where fewer
+// than that are to come.
 TEST(WaitingDisks, EndNoWindowsInBetweenWhereManyWait) {
-  Scene scene = test::scene_of(Method::exact, 4.0, 4.0, 0.0, 100.0);
-  scene.sources = {source_of(10.0, {2.0, 2.0}, {2.0, 2.0})};
-  const State end = test::run(scene, test::state_of(scene, {{2.0, 2.0, 0.0, 0.0, 0.5, 1.0}}));
-  EXPECT_EQ(end.counters.emitted, 0U);
-  EXPECT_EQ(end.counters.waiting, 999U);
-  EXPECT_GE(end.counters.steps, 1000U);
-  EXPECT_LE(end.counters.steps, 1040U);
+  for (const Count limit : {Count{5}, Count{2000}}) {
+    Scene scene = test::scene_of(Method::exact, 4.0, 4.0, 0.0, 100.0);
+    scene.sources = {source_of(10.0, {2.0, 2.0}, {2.0, 2.0})};
+    scene.sources[0].limit = limit;
+    const State end = test::run(scene, test::state_of(scene, {{2.0, 2.0, 0.0, 0.0, 0.5, 1.0}}));
+    EXPECT_EQ(end.counters.emitted, 0U);
+    EXPECT_EQ(end.counters.waiting, std::min(limit, Count{999}));
+    EXPECT_GE(end.counters.steps, 1000U);
+    EXPECT_LE(end.counters.steps, 1040U);
+  }
 }
 
 // The places at which a source of one disk a unit of time tries one at time t, where no place has room.
