@@ -216,19 +216,21 @@ void ParallelExact::begin_brownian() {
   take_out_leavers();
 }
 
+// Takes marked disks out of the state; out of what is known of them when the next window starts, as leavers_ says.
 void ParallelExact::remove(const std::vector<unsigned char>& gone) {
-  at_start_ = state_.disks;
   leavers_.clear();
   for (std::size_t i = gone.size(); i-- > 0;) {
     if (gone[i] != 0) leavers_.push_back(i);
   }
+  if (leavers_.empty()) return;
+  at_start_ = state_.disks;
   state_.counters.removed += leavers_.size();
   if (windows_.takes_changes() && leavers_.size() * disks_per_leaver <= gone.size()) {
     for (const std::size_t i : leavers_) take_out(state_.disks, i);
     return;
   }
   remove_in_parallel(state_.disks, gone, executor_, column_scratch_, id_scratch_);
-  if (!leavers_.empty()) forget(Known::nothing);
+  forget(Known::nothing);
   leavers_.clear();
 }
 
