@@ -223,6 +223,14 @@ TEST(PairDistances, ASelectionHasPairsOfItsDisksAlone) {
   EXPECT_EQ(record.pairs.centres, 2U);
 }
 
+// Where the margins of both sides overlap no disk is a centre, and none has an area to be in.
+TEST(PairDistances, ABoxWithinItsMarginsHasNoCentres) {
+  const Domain box = test::box_of(10.0, 8.0);
+  const DistanceBins bins{3.0, 10, 6.0};
+  EXPECT_EQ(area_of_centres(box, bins), 0.0);
+  EXPECT_EQ(count_pairs(test::disks_of({{5.0, 4.0}, {6.0, 4.0}}), box, bins).centres, 0U);
+}
+
 // A square lattice: 4 neighbours at 1, 4 at sqrt 2, 4 at 2, and none elsewhere.
 TEST(PairDistances, LatticeHasItsShells) {
   Domain box{12.0, 12.0};
