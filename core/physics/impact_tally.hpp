@@ -107,15 +107,13 @@ struct ImpactTally {
     virial.add(virials);
   }
 
-  // What support k bore in this round of the step, |impulse| (r1 + r2) or, for a wall, |impulse|.
+  // What a support bore in this round of the step, |impulse| (r1 + r2) or, for a wall, |impulse|.
   // A wall that moves does work by it.
-  void add_load(DiskId partner, const SupportSet& set, std::size_t k, const Domain& box) {
-    const double borne = carom::borne(set, k);
+  void add_load(DiskId partner, const Support& s, double borne, const Domain& box) {
     if (is_wall(partner)) {
       ++wall_loads;
       if (is_obstacle(partner)) {
-        const Support& s = set.contact[k];
-        if ((*box.obstacles)[obstacle_of(partner)].moves) add_push(borne * wall_speed(s), -borne * s.nx, -borne * s.ny);
+        if ((*box.obstacles)[obstacle_of(partner)].moves) add_push(borne * s.wall_speed, -borne * s.nx, -borne * s.ny);
         return;
       }
       const Side side = wall_side(partner);

@@ -41,18 +41,17 @@ inline constexpr double cycles_a_layer = 0.2;
 inline constexpr double calm_change = 3e-4;
 inline constexpr double trembling_change = 1.0;
 
-// What a sweep reads of a support: a cache line.
-struct alignas(64) Support {
-  double nx, ny;         // from first to second, or into the wall
-  double x1, y1;         // n / mass of the first
-  double x2, y2;         // n / mass of the second; of a wall its speed towards the disk, and 0
-  double effective;      // mass that the contact feels
-  std::uint32_t i1, i2;  // where the disks are stored; twice the same for a wall
+// What a sweep reads of a support.
+struct Support {
+  double nx, ny;              // from first to second, or into the wall
+  double inverse1, inverse2;  // 1 / mass; a wall's is 0
+  double wall_speed;          // towards the disk, length / time; 0 where both are disks
+  double effective;           // mass that the contact feels
+  std::uint32_t i1, i2;       // where the disks are stored; twice the same for a wall
 };
 
-// The supports of a step in some order, in columns: sweeps read and change impulses and velocities alone.
+// What else there is of the supports of a step in some order, in columns.
 struct SupportSet {
-  std::vector<Support> contact;
   std::vector<double> impulse;           // accumulated, >= 0 after a sweep; mass length / time
   std::vector<double> last;              // after the cycle before
   std::vector<double> before;            // when a weighed cycle began; from its end on its part of the sum of squares
@@ -66,46 +65,36 @@ inline bool is_wall_support(const Support& s) {
   return s.i1 == s.i2;
 }
 
-// Of a wall: towards the disk; length / time.
-inline double wall_speed(const Support& s) {
-  return s.x2;
-}
-
 template <class View>
 Support make_support(const View& d, const StepRules& rules, const ContactEvent& e) {
-  Support s{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, d.mass(e.i1), e.i1, e.i1};
-  const double inverse1 = 1.0 / d.mass(e.i1);
+  Support s{0.0, 0.0, 1.0 / d.mass(e.i1), 0.0, 0.0, d.mass(e.i1), e.i1, e.i1};
   if (is_obstacle(e.id2)) {
     const ObstacleGap gap = gap_to(d, rules.box, e.i1, e.id2);
     s.nx = -gap.nx;
     s.ny = -gap.ny;
-    s.x2 = gap.velocity.x * gap.nx + gap.velocity.y * gap.ny;
+    s.wall_speed = gap.velocity.x * gap.nx + gap.velocity.y * gap.ny;
   } else if (is_wall(e.id2)) {
     const Side side = wall_side(e.id2);
     s.nx = side == Side::left ? -1.0 : side == Side::right ? 1.0 : 0.0;
     s.ny = side == Side::bottom ? -1.0 : side == Side::top ? 1.0 : 0.0;
-    s.x2 = rules.box.place(side).speed;
+    s.wall_speed = rules.box.place(side).speed;
   } else {
     const Relative r = relative(d, e.i1, e.i2, rules.box);
     const double distance = std::sqrt(r.distance2());
-    const double inverse2 = 1.0 / d.mass(e.i2);
     s.i2 = e.i2;
+    s.inverse2 = 1.0 / d.mass(e.i2);
     s.nx = distance > 0.0 ? r.dx / distance : 1.0;
     s.ny = distance > 0.0 ? r.dy / distance : 0.0;
-    s.x2 = s.nx * inverse2;
-    s.y2 = s.ny * inverse2;
     s.effective = reduced_mass(d.mass(e.i1), d.mass(e.i2));
   }
-  s.x1 = s.nx * inverse1;
-  s.y1 = s.ny * inverse1;
   return s;
 }
 
-// Support k of the set. force: what the contact bore in the step, or the round, before; mass length / time^2.
+// Begins the columns of support k, whose contact is e. force: what the contact bore in the step, or the round, before;
+// mass length / time^2.
 template <class View>
-void set_support(SupportSet& set, std::size_t k, const View& d, const StepRules& rules, const ContactEvent& e,
-                 double force) {
-  set.contact[k] = make_support(d, rules, e);
+void begin_support(SupportSet& set, std::size_t k, const View& d, const StepRules& rules, const ContactEvent& e,
+                   double force) {
   set.impulse[k] = force * rules.dt;
   set.counted[k] = rules.round == 0 ? 0.0 : set.impulse[k];
   set.contact_distance[k] = is_wall(e.id2) ? d.radius(e.i1) : d.radius(e.i1) + d.radius(e.i2);
@@ -113,11 +102,11 @@ void set_support(SupportSet& set, std::size_t k, const View& d, const StepRules&
 
 // Equal and opposite, so momentum is conserved to rounding; a wall takes its share away.
 inline void apply_impulse(Vec2* v, const Support& s, double impulse) {
-  v[s.i1].x -= impulse * s.x1;
-  v[s.i1].y -= impulse * s.y1;
+  v[s.i1].x -= impulse * (s.nx * s.inverse1);
+  v[s.i1].y -= impulse * (s.ny * s.inverse1);
   if (!is_wall_support(s)) {
-    v[s.i2].x += impulse * s.x2;
-    v[s.i2].y += impulse * s.y2;
+    v[s.i2].x += impulse * (s.nx * s.inverse2);
+    v[s.i2].y += impulse * (s.ny * s.inverse2);
   }
 }
 
@@ -126,18 +115,18 @@ inline void apply_impulse(Vec2* v, const Support& s, double impulse) {
 template <class View>
 void shift_by_load(const View& d, const Support& s, double impulse, double dt) {
   const double j = impulse * (0.5 * dt);
-  d.x[s.i1] -= j * s.x1;
-  d.y[s.i1] -= j * s.y1;
+  d.x[s.i1] -= j * (s.nx * s.inverse1);
+  d.y[s.i1] -= j * (s.ny * s.inverse1);
   if (!is_wall_support(s)) {
-    d.x[s.i2] += j * s.x2;
-    d.y[s.i2] += j * s.y2;
+    d.x[s.i2] += j * (s.nx * s.inverse2);
+    d.y[s.i2] += j * (s.ny * s.inverse2);
   }
 }
 
-// What support k bore in this round: impulse (r1 + r2), the virial, or at a wall the impulse itself.
-inline double borne(const SupportSet& set, std::size_t k) {
+// What support k, which is s, bore in this round: impulse (r1 + r2), the virial, or at a wall the impulse itself.
+inline double borne(const SupportSet& set, std::size_t k, const Support& s) {
   const double impulse = set.impulse[k] - set.counted[k];
-  return is_wall_support(set.contact[k]) ? impulse : impulse * set.contact_distance[k];
+  return is_wall_support(s) ? impulse : impulse * set.contact_distance[k];
 }
 
 // Takes so much off an impulse, but never more than there is; returns the change.
@@ -150,21 +139,12 @@ inline double change_impulse(double& impulse, double less) {
 // One support's part of a sweep: the impulse that stops the approach, never less than 0 in total.
 // Returns by how much it changed that.
 inline double relax(Vec2* v, const Support& s, double& impulse) {
-  Vec2& first = v[s.i1];
+  const Vec2& first = v[s.i1];
+  const Vec2& second = v[s.i2];
   const double first_along = first.x * s.nx + first.y * s.ny;
-  if (is_wall_support(s)) {
-    const double change = change_impulse(impulse, s.effective * (-first_along - wall_speed(s)));
-    first.x -= change * s.x1;
-    first.y -= change * s.y1;
-    return change;
-  }
-  Vec2& second = v[s.i2];
-  const double second_along = second.x * s.nx + second.y * s.ny;
+  const double second_along = is_wall_support(s) ? -s.wall_speed : second.x * s.nx + second.y * s.ny;
   const double change = change_impulse(impulse, s.effective * (second_along - first_along));
-  first.x -= change * s.x1;
-  first.y -= change * s.y1;
-  second.x += change * s.x2;
-  second.y += change * s.y2;
+  apply_impulse(v, s, change);
   return change;
 }
 
@@ -186,18 +166,16 @@ struct CycleFigures {
   }
 };
 
-// Support k's part of the sweep forward, or back.
+// The part of support k, which is s, of the sweep forward, or back.
 template <Watch watch>
-void relax_forward(SupportSet& set, std::size_t k, CycleFigures& figures) {
-  const Support& s = set.contact[k];
+void relax_forward(SupportSet& set, std::size_t k, const Support& s, CycleFigures& figures) {
   if constexpr (watch == Watch::all) set.before[k] = set.impulse[k];
   const double change = relax(set.v.data(), s, set.impulse[k]);
   if constexpr (watch != Watch::nothing) figures.largest = std::max(figures.largest, std::abs(change) / s.effective);
 }
 
 template <Watch watch>
-void relax_back(SupportSet& set, std::size_t k, CycleFigures& figures) {
-  const Support& s = set.contact[k];
+void relax_back(SupportSet& set, std::size_t k, const Support& s, CycleFigures& figures) {
   const double back = relax(set.v.data(), s, set.impulse[k]);
   if constexpr (watch != Watch::nothing) figures.largest = std::max(figures.largest, std::abs(back) / s.effective);
   if constexpr (watch == Watch::all) {
@@ -230,11 +208,9 @@ inline void extrapolate_impulses(SupportSet& set, std::size_t begin, std::size_t
 
 inline void extrapolate_velocity(Vec2& v, Vec2& last, double momentum) {
   const Vec2 now = v;
-  if (momentum != 0.0) {
-    v.x = now.x + momentum * (now.x - last.x);
-    v.y = now.y + momentum * (now.y - last.y);
-  }
+  const Vec2 before = last;
   last = now;
+  if (momentum != 0.0) v = {now.x + momentum * (now.x - before.x), now.y + momentum * (now.y - before.y)};
 }
 
 // What all supports bear and feel.

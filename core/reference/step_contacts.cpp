@@ -33,35 +33,36 @@ void resolve_impacts(const View& d, const State& state, const StepRules& rules, 
 
 // Sweeps over supports in order of ids.
 struct Sweeps {
+  const std::vector<Support>& supports;
   SupportSet& set;
   const std::vector<std::uint32_t>& contacts;
 
   template <Watch watch>
   CycleFigures cycle() const {
     CycleFigures figures;
-    for (std::size_t k = 0; k < set.contact.size(); ++k) relax_forward<watch>(set, k, figures);
-    for (std::size_t k = set.contact.size(); k-- > 0;) relax_back<watch>(set, k, figures);
-    if constexpr (watch == Watch::all) add_products(set, 0, set.contact.size(), figures);
+    for (std::size_t k = 0; k < supports.size(); ++k) relax_forward<watch>(set, k, supports[k], figures);
+    for (std::size_t k = supports.size(); k-- > 0;) relax_back<watch>(set, k, supports[k], figures);
+    if constexpr (watch == Watch::all) add_products(set, 0, supports.size(), figures);
     return figures;
   }
   SupportTotals totals() const {
     SupportTotals all;
-    for (std::size_t k = 0; k < set.contact.size(); ++k) all.add(set.impulse[k], set.contact[k].effective);
+    for (std::size_t k = 0; k < supports.size(); ++k) all.add(set.impulse[k], supports[k].effective);
     return all;
   }
   void extrapolate(double momentum) const {
-    extrapolate_impulses(set, 0, set.contact.size(), momentum);
+    extrapolate_impulses(set, 0, supports.size(), momentum);
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       if (contacts[i] > 0) extrapolate_velocity(set.v[i], set.last_v[i], momentum);
     }
   }
 };
 
-// The supports among the events; their contacts to loads.
+// The supports among the events, to supports, and what else there is of them; their contacts to loads.
 template <class View>
 SupportSet make_supports(const View& d, const State& state, const StepRules& rules,
                          const std::vector<ContactEvent>& events, const std::vector<std::uint32_t>& contacts,
-                         std::vector<ContactLoad>& loads) {
+                         std::vector<Support>& supports, std::vector<ContactLoad>& loads) {
   SupportSet set;
   for (const ContactEvent& e : events) {
     const double force = load_of(state.loads, e);
@@ -71,8 +72,8 @@ SupportSet make_supports(const View& d, const State& state, const StepRules& rul
     for (auto* column : {&set.impulse, &set.last, &set.before, &set.ahead, &set.counted, &set.contact_distance}) {
       column->push_back(0.0);
     }
-    set.contact.emplace_back();
-    set_support(set, k, d, rules, e, force);
+    supports.push_back(make_support(d, rules, e));
+    begin_support(set, k, d, rules, e, force);
   }
   set.v.resize(contacts.size());
   set.last_v.resize(contacts.size());
@@ -85,18 +86,19 @@ template <class View>
 void bear_loads(const View& d, State& state, const StepRules& rules, const std::vector<ContactEvent>& events,
                 const std::vector<std::uint32_t>& contacts, ImpactTally& tally) {
   std::vector<ContactLoad> loads;
-  SupportSet set = make_supports(d, state, rules, events, contacts, loads);
+  std::vector<Support> supports;
+  SupportSet set = make_supports(d, state, rules, events, contacts, supports, loads);
   if (rules.round == 0) {
-    for (std::size_t k = 0; k < loads.size(); ++k) apply_impulse(set.v.data(), set.contact[k], set.impulse[k]);
+    for (std::size_t k = 0; k < loads.size(); ++k) apply_impulse(set.v.data(), supports[k], set.impulse[k]);
   }
-  solve_supports(rules, Sweeps{set, contacts});
+  solve_supports(rules, Sweeps{supports, set, contacts});
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     d.vx[i] = set.v[i].x;
     d.vy[i] = set.v[i].y;
   }
   for (std::size_t k = 0; k < loads.size(); ++k) {
-    if (rules.round == 0) shift_by_load(d, set.contact[k], set.impulse[k], rules.dt);
-    tally.add_load(loads[k].id2, set, k, rules.box);
+    if (rules.round == 0) shift_by_load(d, supports[k], set.impulse[k], rules.dt);
+    tally.add_load(loads[k].id2, supports[k], borne(set, k, supports[k]), rules.box);
     loads[k].force = set.impulse[k];
   }
   std::erase_if(loads, [](const ContactLoad& load) { return load.force == 0.0; });

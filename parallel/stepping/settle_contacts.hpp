@@ -9,6 +9,7 @@
 #include "core/physics/support_solver.hpp"
 #include "parallel/stepping/find_contacts.hpp"
 #include "parallel/stepping/id_order.hpp"
+#include "parallel/stepping/support_batches.hpp"
 #include "parallel/threads/executor.hpp"
 
 namespace carom {
@@ -22,11 +23,10 @@ struct SettleLists {
   std::vector<double> borne;
   std::vector<IdPair> placed;          // the pairs in the order of the patches, so that sweeps read them in a row,
   std::vector<unsigned char> holding;  // and whether each bears load
-  SupportSet supports;                 // those of each patch in a row, from the patch's start
-  std::vector<std::uint32_t> place;    // of each support's pair in placed
-  std::vector<std::uint32_t> bearing;  // supports of each patch
-  std::vector<CycleFigures> figures;   // of each patch in a cycle of sweeps
-  std::vector<SupportTotals> totals;   // of each patch
+  SupportBatches batches;
+  SupportSet supports;                // an entry a slot of the batches; velocities end with the patches' spare disks
+  std::vector<CycleFigures> figures;  // of each patch in a cycle of sweeps
+  std::vector<SupportTotals> totals;  // of each patch
 };
 
 // Resolves all pairs found and wall contacts, keeps their loads in state.loads, wraps the disks that had contacts, and

@@ -2,13 +2,14 @@
 
 namespace carom {
 
-void resize_supports(SupportSet& set, std::size_t supports, std::size_t disks) {
-  resize_amply(set.contact, supports);
-  for (auto* column : {&set.impulse, &set.last, &set.before, &set.ahead, &set.counted, &set.contact_distance}) {
-    resize_amply(*column, supports);
+void resize_supports(SupportSet& set, const SupportBatches& batches, std::size_t patches, std::size_t disks) {
+  for (auto* column : {&set.impulse, &set.last, &set.before, &set.ahead, &set.counted}) {
+    assign_amply(*column, batches.slots(), 0.0);
   }
-  resize_amply(set.v, disks);
+  assign_amply(set.contact_distance, batches.slots(), 1.0);
+  resize_amply(set.v, SupportBatches::spare(disks, patches));
   resize_amply(set.last_v, disks);
+  for (std::size_t q = 0; q < patches; ++q) set.v[SupportBatches::spare(disks, q)] = {};
 }
 
 void keep_loads(State& state, const StepRules& rules, const Executor& executor, ContactLists& lists) {

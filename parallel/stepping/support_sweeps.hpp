@@ -12,6 +12,8 @@
 #include "core/physics/support_solver.hpp"
 #include "parallel/stepping/disk_values.hpp"
 #include "parallel/stepping/resolve_contacts.hpp"
+#include "parallel/stepping/support_batches.hpp"
+#include "parallel/stepping/sweep_kernel.hpp"
 #include "parallel/threads/executor.hpp"
 #include "parallel/threads/resize_amply.hpp"
 
@@ -45,8 +47,8 @@ struct SingleSlab {
   void refresh(Values /*values*/) const {}
 };
 
-// Room for so many supports.
-void resize_supports(SupportSet& set, std::size_t supports, std::size_t disks);
+// The columns of the batches' slots, as of lanes that are left over; and the spare disks, at rest.
+void resize_supports(SupportSet& set, const SupportBatches& batches, std::size_t patches, std::size_t disks);
 
 // Adds the tallies of the patches that this rank counts.
 template <class Others>
@@ -56,10 +58,10 @@ void add_tallies(const ContactLists& lists, const Others& others, ImpactTally& t
   }
 }
 
-// The step's pairs (settle.pairs.sorted) into the order of patches, and the supports among them.
+// The step's pairs (settle.pairs.sorted) into the order of patches, and the places of the supports among them.
 template <class View, class Others>
-void make_supports(const View& d, const Disks& disks, const StepRules& rules, const Executor& executor,
-                   ContactLists& lists, Others&& others) {
+void place_supports(const View& d, const Disks& disks, const StepRules& rules, const Executor& executor,
+                    ContactLists& lists, Others&& others) {
   SettleLists& settle = lists.settle;
   const std::vector<IdPair>& pairs = settle.pairs.sorted;
   Patches& patches = lists.patches;
@@ -68,24 +70,51 @@ void make_supports(const View& d, const Disks& disks, const StepRules& rules, co
   });
   resize_amply(settle.placed, pairs.size());
   resize_amply(settle.holding, pairs.size());
-  resize_supports(settle.supports, pairs.size(), disks.size());
-  resize_amply(settle.place, pairs.size());
-  resize_amply(settle.bearing, patches.count());
   resize_amply(settle.totals, patches.count());  // here, as few steps need them: a warm one allocates nothing
-  executor.run(patches.count(), [&](std::size_t q) {
-    std::uint32_t s = patches.start[q];
-    for (std::uint32_t at = s; at < patches.start[q + 1]; ++at) {
-      const IdPair p = pairs[patches.order[at]];
-      double& borne = settle.borne[patches.order[at]];
-      settle.placed[at] = p;
+  begin_batches(settle.batches, patches, disks.size());
+  run_patches(patches, false, executor, [&](std::size_t q) {
+    for (std::uint32_t at = patches.start[q]; at < patches.start[q + 1]; ++at) {
+      settle.placed[at] = pairs[patches.order[at]];
       settle.holding[at] = 0;
-      if (is_solved(d, rules, p.event(), borne > 0.0, is_crowded(lists, p))) {
-        set_support(settle.supports, s, d, rules, p.event(), borne);
-        settle.place[s++] = at;
-      }
-      borne = 0.0;
     }
-    settle.bearing[q] = s - patches.start[q];
+    place_in_batches(
+        settle.batches, patches, q,
+        [&](std::size_t at) {
+          return Pair{settle.placed[at].i1, settle.placed[at].i2};
+        },
+        [&](std::size_t at) {
+          const IdPair& p = settle.placed[at];
+          return is_solved(d, rules, p.event(), settle.borne[patches.order[at]] > 0.0, is_crowded(lists, p));
+        });
+  });
+  lay_out_batches(settle.batches);
+}
+
+// visit(at, slot) for the supports of a patch in order; at: place in settle.placed.
+template <class Visit>
+void visit_supports(const ContactLists& lists, std::size_t patch, Visit&& visit) {
+  const std::vector<std::uint32_t>& slot = lists.settle.batches.slot;
+  for (std::size_t at = lists.patches.start[patch]; at < lists.patches.start[patch + 1]; ++at) {
+    if (slot[at] != no_slot) visit(at, slot[at]);
+  }
+}
+
+// The supports of the step, in batches; settle.borne becomes 0.
+template <class View, class Others>
+void make_supports(const View& d, const Disks& disks, const StepRules& rules, const Executor& executor,
+                   ContactLists& lists, Others&& others) {
+  place_supports(d, disks, rules, executor, lists, others);
+  SettleLists& settle = lists.settle;
+  const Patches& patches = lists.patches;
+  resize_supports(settle.supports, settle.batches, patches.count(), disks.size());
+  executor.run(patches.count(), [&](std::size_t q) {
+    clear_batches(settle.batches, patches, q, SupportBatches::spare(disks.size(), q));
+    visit_supports(lists, q, [&](std::size_t at, std::uint32_t slot) {
+      const ContactEvent e = settle.placed[at].event();
+      put_support(settle.batches, slot, make_support(d, rules, e));
+      begin_support(settle.supports, slot, d, rules, e, settle.borne[patches.order[at]]);
+    });
+    for (std::uint32_t at = patches.start[q]; at < patches.start[q + 1]; ++at) settle.borne[patches.order[at]] = 0.0;
   });
 }
 
@@ -108,26 +137,19 @@ struct PatchSweeps {
   const Executor& executor;
   ContactLists& lists;
   Others& others;
+  SweepKernels kernels = choose_sweep_kernels();
 
-  // visit(support, patch) for all supports in order, or backwards. before: as in run_patches.
-  template <bool backwards, class Visit, class Before>
-  void sweep(Visit&& visit, Before&& before) const {
+  // The batches of all patches, forward or back. before: as in run_patches.
+  template <Watch watch, class Before>
+  void relax_all(Sweep sweep, Before&& before) const {
+    SettleLists& settle = lists.settle;
+    const std::vector<std::uint32_t>& first = settle.batches.first;
+    const SweepInput in = input();
     const auto run_patch = [&](std::size_t q) {
-      const std::size_t first = lists.patches.start[q];
-      const std::size_t end = first + lists.settle.bearing[q];
-      if constexpr (backwards) {
-        for (std::size_t k = end; k > first; --k) visit(k - 1, q);
-      } else {
-        for (std::size_t k = first; k < end; ++k) visit(k, q);
-      }
+      CycleFigures* const figures = watch == Watch::nothing ? nullptr : &settle.figures[q];
+      kernels.relax(in, sweep, watch, first[q], first[q + 1], figures);
     };
-    run_patches(lists.patches, backwards, executor, run_patch, before);
-  }
-  // For visits that read nothing of a contact's other disk that another visit may have changed: other ranks need not be
-  // asked.
-  template <class Visit>
-  void visit_all(Visit&& visit) const {
-    sweep<false>(visit, [](std::uint32_t /*phase*/, bool /*backwards*/) {});
+    run_patches(lists.patches, sweep == Sweep::back, executor, run_patch, before);
   }
 
   // Sums over the patches are exact, so their order does not matter.
@@ -137,12 +159,12 @@ struct PatchSweeps {
     std::vector<CycleFigures>& patch = lists.settle.figures;
     if (watch != Watch::nothing) assign_amply(patch, lists.patches.count(), CycleFigures{});
     const auto before = others.before(Velocities{set.v.data()});
-    sweep<false>([&](std::size_t k, std::size_t q) { relax_forward<watch>(set, k, patch[q]); }, before);
-    sweep<true>([&](std::size_t k, std::size_t q) { relax_back<watch>(set, k, patch[q]); }, before);
+    relax_all<watch>(Sweep::forward, before);
+    relax_all<watch>(Sweep::back, before);
     if constexpr (watch == Watch::all) {
       executor.run(patch.size(), [&](std::size_t q) {
-        const std::size_t first = lists.patches.start[q];
-        add_products(set, first, first + lists.settle.bearing[q], patch[q]);
+        const std::vector<std::uint32_t>& first = lists.settle.batches.first;
+        add_products(set, batch_lanes * first[q], batch_lanes * first[q + 1], patch[q]);
       });
     }
     CycleFigures all;
@@ -156,9 +178,13 @@ struct PatchSweeps {
 
   SupportTotals totals() const {
     std::vector<SupportTotals>& patch = lists.settle.totals;
-    const SupportSet& set = lists.settle.supports;
+    const SettleLists& settle = lists.settle;
     assign_amply(patch, lists.patches.count(), SupportTotals{});
-    visit_all([&](std::size_t k, std::size_t q) { patch[q].add(set.impulse[k], set.contact[k].effective); });
+    executor.run(patch.size(), [&](std::size_t q) {
+      visit_supports(lists, q, [&](std::size_t, std::uint32_t slot) {
+        patch[q].add(settle.supports.impulse[slot], support_in(settle.batches, slot).effective);
+      });
+    });
     SupportTotals all;
     for (std::size_t q = 0; q < patch.size(); ++q) {
       if (others.counts(q)) all.add(patch[q]);
@@ -168,14 +194,20 @@ struct PatchSweeps {
   }
 
   void extrapolate(double momentum) const {
-    SupportSet& set = lists.settle.supports;
-    executor.run(lists.patches.count(), [&](std::size_t q) {
-      const std::size_t first = lists.patches.start[q];
-      extrapolate_impulses(set, first, first + lists.settle.bearing[q], momentum);
+    const std::vector<std::uint32_t>& first = lists.settle.batches.first;
+    const SweepInput in = input();
+    executor.run(lists.patches.count(),
+                 [&](std::size_t q) { kernels.extrapolate(in, first[q], first[q + 1], momentum); });
+    executor.for_ranges(lists.contacts.size(), velocity_block, [&](std::size_t, std::size_t begin, std::size_t end) {
+      kernels.extrapolate_velocities(in, lists.contacts.data(), begin, end, momentum);
     });
-    visit_in_contact(lists, executor, [v = set.v.data(), last = set.last_v.data(), momentum](std::size_t i) {
-      extrapolate_velocity(v[i], last[i], momentum);
-    });
+  }
+
+  SweepInput input() const {
+    SettleLists& settle = lists.settle;
+    SupportSet& set = settle.supports;
+    return {settle.batches.batch.data(), set.impulse.data(), set.last.data(),      set.before.data(), set.ahead.data(),
+            set.contact_distance.data(), &set.v.data()->x,   &set.last_v.data()->x};
   }
 };
 
@@ -187,13 +219,14 @@ void take_up_loads(const View& d, const StepRules& rules, const Executor& execut
   const Patches& patches = lists.patches;
   assign_amply(lists.tallies, patches.count(), {});
   run_patches(patches, false, executor, [&](std::size_t q) {
-    for (std::size_t k = patches.start[q]; k < patches.start[q] + settle.bearing[q]; ++k) {
-      const double impulse = settle.supports.impulse[k];
-      if (rules.round == 0) shift_by_load(d, settle.supports.contact[k], impulse, rules.dt);
-      lists.tallies[q].add_load(settle.placed[settle.place[k]].id2(), settle.supports, k, rules.box);
-      settle.borne[patches.order[settle.place[k]]] = impulse;
-      settle.holding[settle.place[k]] = impulse > 0.0 ? 1 : 0;
-    }
+    visit_supports(lists, q, [&](std::size_t at, std::uint32_t slot) {
+      const Support support = support_in(settle.batches, slot);
+      const double impulse = settle.supports.impulse[slot];
+      if (rules.round == 0) shift_by_load(d, support, impulse, rules.dt);
+      lists.tallies[q].add_load(settle.placed[at].id2(), support, borne(settle.supports, slot, support), rules.box);
+      settle.borne[patches.order[at]] = impulse;
+      settle.holding[at] = impulse > 0.0 ? 1 : 0;
+    });
   });
   add_tallies(lists, others, tally);
 }
@@ -211,7 +244,11 @@ void bear_loads(const View& d, State& state, const StepRules& rules, const Execu
   visit_in_contact(lists, executor, [&](std::size_t i) { set.v[i] = {d.vx[i], d.vy[i]}; });
   const PatchSweeps<Others> sweeps{executor, lists, others};
   if (rules.round == 0) {
-    sweeps.visit_all([&](std::size_t k, std::size_t) { apply_impulse(set.v.data(), set.contact[k], set.impulse[k]); });
+    run_patches(lists.patches, false, executor, [&](std::size_t q) {
+      visit_supports(lists, q, [&](std::size_t, std::uint32_t slot) {
+        apply_impulse(set.v.data(), support_in(lists.settle.batches, slot), set.impulse[slot]);
+      });
+    });
   }
   solve_supports(rules, sweeps);
   visit_in_contact(lists, executor, [&](std::size_t i) {
