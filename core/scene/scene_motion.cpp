@@ -36,8 +36,9 @@ MotionKeys read_motion_keys(const TableReader& owner, const TableReader& motion)
   if (v.size() != 2) motion.fail(keys.name, "has " + counted(v.size(), "number"), "expected a list of two, x and y");
   keys.value = {v[0], v[1]};
   const std::optional<double> period = motion.number("period");
-  if (steady && period) {
-    motion.fail("period", "given of a constant velocity", "expected vibrate = [ax, ay] as well");
+  for (const std::string_view of_vibration : {"period", "shape"}) {
+    if (!steady || motion.find(of_vibration) == nullptr) continue;
+    motion.fail(of_vibration, "given of a constant velocity", "expected vibrate = [ax, ay] in place of velocity");
   }
   if (!steady && !period) motion.fail("period", "missing", "expected the time of one vibration");
   keys.period = period.value_or(0.0);

@@ -158,6 +158,8 @@ const Fault out_of_range[] = {
      "7: box.left.motion.period: ", "missing"},
     {"PeriodOfVelocity", "left = \"wall\"", "left = { motion = { velocity = [0.1, 0], period = 1 } }",
      "7: box.left.motion.period: ", "given of a constant velocity"},
+    {"ShapeOfVelocity", "left = \"wall\"", "left = { motion = { velocity = [0.1, 0], shape = \"sine\" } }",
+     "7: box.left.motion.shape: ", "given of a constant velocity"},
     {"VibrationAsSaw", "left = \"wall\"", "left = { motion = { vibrate = [1, 0], period = 1, shape = \"sin\" } }",
      "7: box.left.motion.shape: ", "unknown name \"sin\"; expected one of parabola, sine (nearest: sine)"},
     {"PlaceOfSideAtRest", "left = \"wall\"", "left = { place = 1.0 }", "7: box.left.place: ", "does not move"},
