@@ -129,11 +129,18 @@ void check_each(const TableReader& law, std::string_view name, const std::vector
   }
 }
 
-SizeLaw read_choice_of_sizes(const TableReader& law) {
+// other_key: as of read_size.
+SizeLaw read_choice_of_sizes(const TableReader& law, std::string_view other_key) {
   constexpr std::string_view expected =
       "expected { choice = [a, b], weights = [1, 2] } with numbers above 0; weights may be left out";
   SizeLaw size;
   size.kind = SizeLaw::Kind::choice;
+  for (const std::string_view other :
+       {std::string_view("uniform"), std::string_view("normal"), std::string_view("lognormal"), other_key}) {
+    if (law.find(other) != nullptr && law.find("choice") != nullptr) {
+      law.fail(other, "given beside choice", "expected one of the two, and weights beside choice alone");
+    }
+  }
   const toml::node* weights = law.find("weights");
   if (weights != nullptr) size.weights = as_numbers(law.origin(), law.key("weights"), *weights);
   size.values = as_numbers(law.origin(), law.key("choice"), law.require("choice", expected));
@@ -284,7 +291,9 @@ SizeLaw read_size(const TableReader& owner, std::string_view name, std::string_v
       return law;
     }
     const TableReader reader(owner.origin(), key, *table, fmt::format("disks.{}", name));
-    if (reader.find("choice") != nullptr || reader.find("weights") != nullptr) return read_choice_of_sizes(reader);
+    if (reader.find("choice") != nullptr || reader.find("weights") != nullptr) {
+      return read_choice_of_sizes(reader, other_key);
+    }
     const std::string_view kind = only_key(owner, name, *table, expected);
     if (kind == "uniform") return read_uniform_size(reader, *table->get("uniform"));
     if (kind == "normal") return read_normal_size(reader);
