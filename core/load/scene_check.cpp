@@ -87,10 +87,6 @@ void check_wall(const Scene& scene, const InnerWall& wall, const std::string& pa
 void check_source(const Source& source, const Domain& box, const std::string& path, const PlaceOfKey& place) {
   const auto at = [&](std::string_view name) { return place(fmt::format("{}.{}", path, name)); };
   check_sizes_differ(source.radius, source.mass, at("radius"));
-  constexpr std::string_view no_list = "expected a law that serves any number of disks";
-  if (source.radius.kind == SizeLaw::Kind::list) fail_input(at("radius"), "is a list", no_list);
-  if (source.mass.kind == SizeLaw::Kind::list) fail_input(at("mass"), "is a list", no_list);
-  if (source.velocities.kind == VelocityLaw::Kind::list) fail_input(at("velocities"), "is a list", no_list);
   if (!source.spins.list.empty()) fail_input(at("spin"), "is a list", "expected a number");
   if (source.side && box.side(*source.side) == SideKind::periodic) {
     fail_input(at("side"), fmt::format("{} is periodic", side_names[static_cast<std::size_t>(*source.side)]),

@@ -170,15 +170,15 @@ DiskGroup read_group(const SceneOrigin& origin, const std::string& path, const t
   reader.require("count", "expected how many disks the group has");
   group.count = reader.count("count").value();
   group.positions = read_positions(reader);
-  group.velocities = read_velocities(reader);
+  group.velocities = read_velocities(reader, Serves::a_group);
   group.drift = read_drift(reader);
   group.spins = read_spins(reader);
-  group.radius = read_size(reader, "radius", "from_mass");
+  group.radius = read_size(reader, "radius", "from_mass", Serves::a_group);
   group.fixed = reader.flag_or_initial("fixed");
   if (group.fixed) {
     read_fixed(reader, group);
   } else {
-    group.mass = read_size(reader, "mass", "from_radius");
+    group.mass = read_size(reader, "mass", "from_radius", Serves::a_group);
   }
   return group;
 }
@@ -215,9 +215,9 @@ Source read_source(const SceneOrigin& origin, const std::string& path, const tom
   }
   reader.require("rate", "expected disks per unit time");
   source.rate = reader.number("rate").value();
-  source.radius = read_size(reader, "radius", "from_mass");
-  source.mass = read_size(reader, "mass", "from_radius");
-  source.velocities = read_velocities(reader);
+  source.radius = read_size(reader, "radius", "from_mass", Serves::any_number);
+  source.mass = read_size(reader, "mass", "from_radius", Serves::any_number);
+  source.velocities = read_velocities(reader, Serves::any_number);
   source.spins = read_spins(reader);
   source.limit = reader.count("limit");
   return source;

@@ -25,6 +25,17 @@ constexpr std::string_view positions_expected =
     "{ frame = \"DIR\" }";
 constexpr std::string_view velocities_expected =
     "expected { maxwell = T }, { uniform = v }, a list of [vx, vy], { file = \"v.csv\" }, or { frame = \"DIR\" }";
+constexpr std::string_view source_velocities_expected = "expected { maxwell = T } or { uniform = v }";
+
+// What a radius or mass may be; other_key as of read_size.
+std::string size_expected(std::string_view other_key, Serves serves) {
+  const bool any_number = serves == Serves::any_number;
+  return fmt::format(
+      "expected a number, {}{{ uniform = [low, high] }}, {{ normal = [mean, deviation] }}, "
+      "{{ lognormal = [median, sigma] }}, {{ choice = [a, b] }}, {}{{ {} = density }}{}",
+      any_number ? "" : "a list of numbers, ", any_number ? "or " : "", other_key,
+      any_number ? "" : ", or { frame = \"DIR\" }");
+}
 
 // The one key of an inline table such as { maxwell = 1.0 }; throws unless there is exactly one.
 std::string_view only_key(const TableReader& owner, std::string_view name, const toml::table& table,
@@ -63,6 +74,13 @@ SceneFrame read_frame(const TableReader& owner, std::string_view name, const tom
   } catch (const InputError& error) {
     fail_input(law.origin().where(law.key("frame")), error.what());
   }
+}
+
+// A list of values, written out or read from a file or frame (file), serves a group alone.
+void check_serves(const TableReader& owner, std::string_view name, Serves serves, const std::string& file) {
+  if (serves == Serves::a_group) return;
+  owner.fail(name, file.empty() ? "is a list" : "is a list, that of " + file,
+             "expected a law that serves any number of disks");
 }
 
 bool is_frame(const toml::table& table) {
@@ -242,25 +260,28 @@ Vec2 read_drift(const TableReader& group) {
   return {v[0], v[1]};
 }
 
-VelocityLaw read_velocities(const TableReader& owner) {
+VelocityLaw read_velocities(const TableReader& owner, Serves serves) {
+  const std::string_view expected = serves == Serves::any_number ? source_velocities_expected : velocities_expected;
   VelocityLaw law;
   const toml::node* node = owner.find("velocities");
   if (node == nullptr) return law;
   const std::string key = owner.key("velocities");
   const toml::table* table = node->as_table();
   if (table == nullptr) {
-    as_list(owner.origin(), key, *node, velocities_expected);
+    as_list(owner.origin(), key, *node, expected);
     law.kind = VelocityLaw::Kind::list;
+    check_serves(owner, "velocities", serves, {});
     law.list = as_pairs(owner.origin(), key, *node);
     return law;
   }
   if (is_frame(*table)) {
     law.kind = VelocityLaw::Kind::list;
     law.list = read_frame(owner, "velocities", *table, law.file).velocities;
+    check_serves(owner, "velocities", serves, law.file);
     return law;
   }
   const TableReader reader(owner.origin(), key, *table, "disks.velocities");
-  const std::string_view kind = only_key(owner, "velocities", *table, velocities_expected);
+  const std::string_view kind = only_key(owner, "velocities", *table, expected);
   if (kind == "maxwell") {
     law.kind = VelocityLaw::Kind::maxwell;
     law.temperature = reader.number("maxwell").value();
@@ -270,22 +291,24 @@ VelocityLaw read_velocities(const TableReader& owner) {
   } else {
     law.kind = VelocityLaw::Kind::list;
     law.list = read_csv_law(reader, law.file);
+    check_serves(owner, "velocities", serves, law.file);
   }
   return law;
 }
 
-SizeLaw read_size(const TableReader& owner, std::string_view name, std::string_view other_key) {
-  const std::string expected = fmt::format(
-      "expected a number, a list of numbers, {{ uniform = [low, high] }}, {{ normal = [mean, deviation] }}, "
-      "{{ lognormal = [median, sigma] }}, {{ choice = [a, b] }}, {{ {} = density }}, or {{ frame = \"DIR\" }}",
-      other_key);
+SizeLaw read_size(const TableReader& owner, std::string_view name, std::string_view other_key, Serves serves) {
+  const std::string expected = size_expected(other_key, serves);
   const toml::node& node = owner.require(name, expected);
   const std::string key = owner.key(name);
-  if (node.is_array()) return read_size_list(owner, key, name == "radius" ? Dimension::length : Dimension::mass, node);
+  if (node.is_array()) {
+    check_serves(owner, name, serves, {});
+    return read_size_list(owner, key, name == "radius" ? Dimension::length : Dimension::mass, node);
+  }
   SizeLaw law;
   if (const toml::table* table = node.as_table()) {
     if (is_frame(*table)) {
       const SceneFrame frame = read_frame(owner, name, *table, law.file);
+      check_serves(owner, name, serves, law.file);
       law.kind = SizeLaw::Kind::list;
       law.values = name == "radius" ? frame.radius : frame.mass;
       return law;

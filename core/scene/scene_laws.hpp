@@ -1,7 +1,9 @@
 // Reading how disks and sources get positions, velocities, radii and masses.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/scene/scene.hpp"
@@ -14,8 +16,11 @@ namespace carom {
 // ... } likewise. Throws InputError for anything else, for a missing key, and for a CSV file that cannot be read.
 PositionLaw read_positions(const TableReader& group);
 
+// Whom a law serves, for messages: the disks of a group may have a list, those of a source come in any number.
+enum class Serves : std::uint8_t { a_group, any_number };
+
 // The value of "velocities": { maxwell = T }, { uniform = v }, a list, { file = ... }; at rest when absent.
-VelocityLaw read_velocities(const TableReader& owner);
+VelocityLaw read_velocities(const TableReader& owner, Serves serves);
 
 // The spins of the disks in { frame = ... }; 0 where disks were smooth. file: gets what messages call it.
 std::vector<double> read_spins_of_frame(const TableReader& owner, const toml::table& table, std::string& file);
@@ -25,6 +30,6 @@ Vec2 read_drift(const TableReader& group);
 
 // The value of "radius" or "mass" (name): a number, a list, { uniform = [low, high] }, a distribution, or other_key =
 // density, where other_key is "from_mass" for radii and "from_radius" for masses.
-SizeLaw read_size(const TableReader& owner, std::string_view name, std::string_view other_key);
+SizeLaw read_size(const TableReader& owner, std::string_view name, std::string_view other_key, Serves serves);
 
 }  // namespace carom

@@ -225,6 +225,25 @@ TEST(BadSource, LawsThatDoNotServeAnyNumber) {
               HasSubstr("box.height: 10 is too small for a disk of radius 6"));
 }
 
+// What is offered instead is what a source takes.
+TEST(BadSource, IsNotOfferedAList) {
+  const std::string_view side = "side = \"left\"\nrate = 1";
+  EXPECT_THAT(
+      with_source(side, "radius = \"big\"\nmass = 1"),
+      EndsWith("sources.0.radius: is a string; expected a number, { uniform = [low, high] }, { normal = [mean, "
+               "deviation] }, { lognormal = [median, sigma] }, { choice = [a, b] }, or { from_mass = density }"));
+  EXPECT_THAT(with_source(side, "radius = 1"), AllOf(HasSubstr("sources.0.mass: missing; expected a number, { uniform"),
+                                                     EndsWith("or { from_radius = density }")));
+  EXPECT_THAT(with_source(side, "radius = 1\nmass = 1\nvelocities = 3"),
+              EndsWith("sources.0.velocities: is an integer; expected { maxwell = T } or { uniform = v }"));
+  const TestFolder folder("bad_source_test");
+  const std::string file = folder.write("v.csv", "1,0\n");
+  EXPECT_THAT(with_source(side, fmt::format("radius = 1\nmass = 1\nvelocities = {{ file = \"{}\" }}", file)),
+              EndsWith(fmt::format("sources.0.velocities: is a list, that of {}; expected a law that serves any number "
+                                   "of disks",
+                                   file)));
+}
+
 TEST(BadFile, EmptyMissingOrNoFile) {
   const TestFolder folder("bad_file_test");
   const auto message = [](const std::string& path) -> std::string {
