@@ -57,9 +57,27 @@ bool has_y_first(std::string_view heading) {
   return swapped && std::equal(a + 1, first.end(), b + 1, second.end());
 }
 
+// A name of a heading such as vx, "v_x" or Velocity x.
+bool names_velocity(std::string_view field) {
+  const std::size_t first = std::min(field.find_first_not_of(" \t\""), field.size());
+  return first < field.size() && (field[first] == 'v' || field[first] == 'V');
+}
+
+// What was expected of a heading that names something else than is to be read; empty if it does not.
+std::string_view other_heading(std::string_view heading, CsvPairs pairs) {
+  if (has_y_first(heading)) return "expected x first, then y";
+  const std::size_t comma = heading.find(',');
+  const std::string_view first = heading.substr(0, comma), second = heading.substr(comma + 1);
+  if (pairs == CsvPairs::places && names_velocity(first) && names_velocity(second)) {
+    return "expected places, as in \"x,y\"";
+  }
+  return {};
+}
+
 }  // namespace
 
-std::vector<Vec2> parse_csv_pairs(std::string_view text, const std::string& name, std::string_view key) {
+std::vector<Vec2> parse_csv_pairs(std::string_view text, const std::string& name, std::string_view key,
+                                  CsvPairs pairs) {
   constexpr std::string_view expected = "expected two finite numbers \"x,y\"";
   std::vector<Vec2> rows;
   bool first_line = true;
@@ -73,11 +91,12 @@ std::vector<Vec2> parse_csv_pairs(std::string_view text, const std::string& name
     if (line.empty() || line[0] == '#') continue;
     const bool header = first_line && is_header(line);
     first_line = false;
-    if (header && has_y_first(line)) {
+    if (header) {
+      const std::string_view other = other_heading(line, pairs);
+      if (other.empty()) continue;
       fail_input(fmt::format("{}:{}: {}", name, line_number, key), fmt::format("has columns {}", in_quotes(line)),
-                 "expected x first, then y");
+                 other);
     }
-    if (header) continue;
     const std::size_t comma = line.find(',');
     const bool pair = comma != std::string_view::npos;
     const std::optional<double> x = pair ? parse_number(line.substr(0, comma)) : std::nullopt;

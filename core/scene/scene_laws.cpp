@@ -45,14 +45,14 @@ std::string_view only_key(const TableReader& owner, std::string_view name, const
 }
 
 // The rows of the CSV file that the key "file" of law names; file gets the name as written.
-std::vector<Vec2> read_csv_law(const TableReader& law, std::string& file) {
+std::vector<Vec2> read_csv_law(const TableReader& law, CsvPairs pairs, std::string& file) {
   const SceneOrigin& origin = law.origin();
   const std::string key = law.key("file");
   file = law.text("file").value();
   if (file.empty() || file.find('\0') != std::string::npos) law.fail("file", "is no file name", "expected a CSV file");
   const std::filesystem::path path = std::filesystem::path(origin.folder) / file;
   const std::string text = read_text_file(path.string(), fmt::format("{} {}", origin.where(key), in_quotes(file)));
-  return parse_csv_pairs(text, file, key);
+  return parse_csv_pairs(text, file, key, pairs);
 }
 
 // { frame = "DIR or trajectory" }, with index = n (from 1) or time = t; the last frame without. file gets what messages
@@ -234,7 +234,7 @@ PositionLaw read_positions(const TableReader& group) {
     const TableReader reader(group.origin(), key, *table, "disks.positions");
     only_key(group, "positions", *table, positions_expected);
     law.kind = PositionLaw::Kind::list;
-    law.list = read_csv_law(reader, law.file);
+    law.list = read_csv_law(reader, CsvPairs::places, law.file);
   } else {
     as_list(group.origin(), key, node, positions_expected);
     law.kind = PositionLaw::Kind::list;
@@ -290,7 +290,7 @@ VelocityLaw read_velocities(const TableReader& owner, Serves serves) {
     law.limit = reader.number("uniform").value();
   } else {
     law.kind = VelocityLaw::Kind::list;
-    law.list = read_csv_law(reader, law.file);
+    law.list = read_csv_law(reader, CsvPairs::any, law.file);
     check_serves(owner, "velocities", serves, law.file);
   }
   return law;

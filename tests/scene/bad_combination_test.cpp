@@ -316,6 +316,9 @@ TEST(BadFile, CsvThatCannotBeRead) {
   EXPECT_THAT(with_file("none.csv"), StartsWith("gas.toml:15: disks.0.positions.file \"none.csv\": cannot be opened"));
   EXPECT_THAT(with_file("."), HasSubstr("is a directory"));
   EXPECT_THAT(with_file(""), HasSubstr("is no file name"));
+  folder.write("v.csv", "vx,vy\n2,2\n5,5\n8,2\n");
+  EXPECT_EQ(with_file("v.csv"),
+            "v.csv:1: disks.0.positions.file: has columns \"vx,vy\"; expected places, as in \"x,y\"");
   folder.write("outside.csv", "2,2\n5,5\n80,2\n");
   EXPECT_THAT(with_file("outside.csv"), HasSubstr("disk 2 (row 3 of outside.csv)"));
 }

@@ -72,6 +72,26 @@ TEST(Csv, AHeaderThatNamesYFirstIsRefused) {
   }
 }
 
+// A file of velocities taken for one of positions would be another scene without a word.
+TEST(Csv, AHeaderOfVelocitiesIsRefusedForPlaces) {
+  const auto complaint = [](const char* heading, CsvPairs pairs) -> std::string {
+    try {
+      parse_csv_pairs(std::string(heading) + "\n1,2\n", "p.csv", "k", pairs);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  for (const char* const heading : {"vx,vy", "\"vx\", \"vy\"", "v_x [m/s],v_y [m/s]", "Velocity x,Velocity y"}) {
+    EXPECT_THAT(complaint(heading, CsvPairs::places), testing::StartsWith("p.csv:1: k: has columns ")) << heading;
+    EXPECT_THAT(complaint(heading, CsvPairs::places), testing::EndsWith("; expected places, as in \"x,y\"")) << heading;
+    EXPECT_EQ(complaint(heading, CsvPairs::any), "") << heading;
+  }
+  for (const char* const heading : {"x,y", "a,b", "vertical,y"}) {
+    EXPECT_EQ(complaint(heading, CsvPairs::places), "") << heading;
+  }
+}
+
 TEST(Csv, ComplaintIsOneShortLine) {
   const std::string message = complaint_of("1\t\x01" + std::string(10000, '7') + ",\n");
   EXPECT_EQ(message.find('\n'), std::string::npos);
