@@ -256,6 +256,9 @@ std::optional<double> TableReader::number(std::string_view name) const {
   const SceneKey& key_row = row(name);
   const toml::node* node = find(name);
   if (node == nullptr) return std::nullopt;
+  if (!node->is_number() && !key_row.allowed.empty()) {
+    fail(name, fmt::format("is {}", type_name(*node)), "expected " + without_ticks(key_row.allowed));
+  }
   const double value = as_number(*origin_, key(name), *node);
   const std::string_view broken = broken_bound(key_row.kind, value);
   if (!broken.empty()) {
