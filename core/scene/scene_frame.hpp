@@ -21,6 +21,10 @@ struct SceneFrame {
   std::vector<Vec2> positions, velocities;  // in order of id
   std::vector<double> radius, mass;
   std::vector<double> spin{};  // of rough disks; else empty
+  // Of the flow vx = rate (y - height / 2) that a run with a shear writes in its velocities (core/disks/shear.hpp); 0
+  // without one, absent where nothing tells.
+  std::optional<double> shear_rate = 0.0;
+  double height = 0.0;  // of the box of that run
 };
 
 // Throws InputError, naming the file, where there is no such frame.

@@ -14,6 +14,7 @@
 #include "core/base/input_message.hpp"
 #include "core/base/random.hpp"
 #include "core/base/short_number.hpp"
+#include "core/disks/shear.hpp"
 #include "core/scene/csv.hpp"
 
 namespace carom {
@@ -85,6 +86,26 @@ void check_serves(const TableReader& owner, std::string_view name, Serves serves
 
 bool is_frame(const toml::table& table) {
   return table.get("frame") != nullptr;
+}
+
+bool has_shear(const SceneOrigin& origin) {
+  const toml::table* box = origin.root->get_as<toml::table>("box");
+  return box != nullptr && (*box)["shear_rate"].value_or(0.0) != 0.0;
+}
+
+// The velocities of a frame as [[disks]] has them: in a box with a shear relative to the flow, without that of the run
+// that wrote them.
+std::vector<Vec2> velocities_of(const TableReader& owner, SceneFrame frame, const std::string& file) {
+  if (!has_shear(owner.origin())) return std::move(frame.velocities);
+  if (!frame.shear_rate) {
+    owner.fail("velocities", fmt::format("are of {}, which does not tell whether they have a shear flow in them", file),
+               "expected the folder of a run, with its scene.toml");
+  }
+  const Shear shear{*frame.shear_rate};
+  for (std::size_t i = 0; i < frame.velocities.size(); ++i) {
+    frame.velocities[i].x -= shear.flow(frame.positions[i].y, frame.height);
+  }
+  return std::move(frame.velocities);
 }
 
 SizeLaw read_uniform_size(const TableReader& law, const toml::node& node) {
@@ -276,8 +297,9 @@ VelocityLaw read_velocities(const TableReader& owner, Serves serves) {
   }
   if (is_frame(*table)) {
     law.kind = VelocityLaw::Kind::list;
-    law.list = read_frame(owner, "velocities", *table, law.file).velocities;
+    SceneFrame frame = read_frame(owner, "velocities", *table, law.file);
     check_serves(owner, "velocities", serves, law.file);
+    law.list = velocities_of(owner, std::move(frame), law.file);
     return law;
   }
   const TableReader reader(owner.origin(), key, *table, "disks.velocities");

@@ -41,7 +41,8 @@ constexpr SceneTable tables[] = {
      "Exactly one of these keys; `weights` goes with `choice`. Every disk draws its own by its id."},
     {"frame", "`{ frame = ... }` in `[[disks]]`",
      "Starts from a frame of an earlier run: `positions`, `velocities`, `radius`, `mass` and `spin` may each be taken "
-     "from one. The last frame, unless `index` or `time` says which."},
+     "from one. The last frame, unless `index` or `time` says which. In a box with `shear_rate` velocities are taken "
+     "relative to the flow of the run that wrote them."},
     {"growth", "`[growth]`", "How `positions = \"growth\"` goes about it; only where some group grows."},
     {"sources", "`[[sources]]`",
      "Disks that come while the run goes on, the k-th at time k / `rate` and none at the end, through a side or "

@@ -4,9 +4,12 @@
 
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
+#include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
+#include "core/load/scene_file.hpp"
 #include "io/trajectory/trajectory_reader.hpp"
 
 namespace carom {
@@ -19,6 +22,21 @@ std::string trajectory_of(const std::string& path) {
   const std::string found = trajectory_in(path).string();
   if (found.empty()) fail_input(path, "holds no trajectory.xyz or trajectory.h5", "expected a run with a trajectory");
   return found;
+}
+
+// Of the run that wrote a frame, by the scene.toml beside it where that is its own; absent where that is not there. A
+// shear takes a box that is periodic both ways, and such a run without one counts rounds.
+std::optional<double> shear_rate_of(const std::string& trajectory, const TrajectoryFrame& frame) {
+  if (!frame.box.periodic_x() || !frame.box.periodic_y() || !frame.image_x.empty()) return 0.0;
+  const std::filesystem::path file = std::filesystem::path(trajectory).parent_path() / "scene.toml";
+  if (!std::filesystem::exists(file)) return {};
+  try {
+    const Scene scene = load_scene(file.string());
+    const bool own = scene.box.width == frame.box.width && scene.box.height == frame.box.height;
+    return own ? std::optional(scene.box.shear.rate) : std::nullopt;
+  } catch (const InputError&) {
+    return {};
+  }
 }
 
 }  // namespace
@@ -38,6 +56,8 @@ SceneFrame read_scene_frame(const FrameAsked& asked) {
     fail_input(path, fmt::format("there is no frame {}", *asked.index), fmt::format("expected 1 to {}", frames));
   }
   SceneFrame result;
+  result.shear_rate = shear_rate_of(path, chosen);
+  result.height = chosen.box.height;
   const Disks& d = chosen.disks;
   for (std::size_t i = 0; i < d.size(); ++i) {
     result.positions.push_back({d.x[i], d.y[i]});

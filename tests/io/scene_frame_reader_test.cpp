@@ -68,5 +68,37 @@ TEST_F(SceneFrames, OneThatIsNotThereIsNamed) {
   EXPECT_EQ(complaint({file, {}, 1.0}), file + ": holds no frame");
 }
 
+// A run with a shear has the flow in what it writes: by the scene beside it, if that is its own. Such a run counts no
+// rounds, so that a frame that has them is of none.
+TEST_F(SceneFrames, TellsTheShearOfItsRun) {
+  const auto frame = [this](const char* sides, const char* column, const char* value) {
+    folder_.write("trajectory.xyz",
+                  fmt::format("1\nLattice=\"10 0 0 0 8 0 0 0 1\" pbc=\"{} F\" Properties=pos:R:2:velo:"
+                              "R:2:radius:R:1:mass:R:1:id:I:1{} Time=0\n1 2 3 4 0.5 6 0{}\n",
+                              sides, column, value));
+    return read_scene_frame({folder_.path().string(), {}, {}});
+  };
+  const auto scene = [this](double height, std::string_view more) {
+    folder_.write("scene.toml",
+                  fmt::format("[box]\nwidth = 10\nheight = {}\nleft = \"periodic\"\nright = \"periodic\"\n"
+                              "bottom = \"periodic\"\ntop = \"periodic\"\n{}[[disks]]\ncount = 1\n"
+                              "positions = [[1, 2]]\nradius = 0.5\nmass = 6\n[run]\nt_end = 1\n",
+                              height, more));
+  };
+  EXPECT_EQ(frame("T T", "", "").shear_rate, std::nullopt) << "no scene tells";
+  EXPECT_EQ(frame("T F", "", "").shear_rate, 0.0);
+  EXPECT_EQ(frame("T T", ":map_shift:I:2", " 0 0").shear_rate, 0.0);
+  scene(8, "shear_rate = 0.25\n");
+  EXPECT_EQ(frame("T T", "", "").shear_rate, 0.25);
+  EXPECT_EQ(frame("T T", "", "").height, 8.0);
+  EXPECT_EQ(frame("T T", "", "").velocities.at(0).x, 3.0) << "as they were written";
+  scene(8, "");
+  EXPECT_EQ(frame("T T", "", "").shear_rate, 0.0);
+  scene(9, "shear_rate = 0.25\n");
+  EXPECT_EQ(frame("T T", "", "").shear_rate, std::nullopt) << "of another box";
+  folder_.write("scene.toml", "[box\n");
+  EXPECT_EQ(frame("T T", "", "").shear_rate, std::nullopt);
+}
+
 }  // namespace
 }  // namespace carom

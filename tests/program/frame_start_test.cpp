@@ -1,4 +1,7 @@
 // Scenes that start from a frame of an earlier run.
+#include <fmt/format.h>
+
+#include <filesystem>
 #include <sstream>
 #include <string>
 
@@ -68,6 +71,30 @@ TEST_F(LongFrameStart, WhatIsNoFrameIsRefused) {
     EXPECT_THAT(o.err, HasSubstr("bad.toml:")) << law;
     EXPECT_THAT(o.err, HasSubstr(expected)) << law;
   }
+}
+
+// What a run writes has the flow in it; velocities of a scene are relative to that. It was added twice.
+TEST_F(LongFrameStart, AShearFlowIsNotAddedAgain) {
+  std::string sheared = with_frames + "series = true\n";
+  for (const char* const side : {"left", "right", "bottom", "top"}) {
+    sheared = test::replaced(sheared, "[box]\n", fmt::format("[box]\n{} = \"periodic\"\n", side));
+  }
+  sheared = test::replaced(sheared, "[box]\n", "[box]\nshear_rate = 0.5\n");
+  write("sheared.toml", sheared);
+  run("sheared.toml -o first");
+  std::string second = sheared;
+  for (const char* const key : {"positions", "velocities", "radius", "mass"}) {
+    const std::size_t begin = second.find(std::string(key) + " = ");
+    second.replace(begin, second.find('\n', begin) - begin, std::string(key) + " = { frame = \"first\", index = 1 }");
+  }
+  write("second.toml", second);
+  run("second.toml -o second");
+  EXPECT_THAT(carom("compare first second --tolerance 1e-12 --at 0").out, HasSubstr("the same to 1e-12"));
+  std::filesystem::remove(at("first/scene.toml"));
+  const test::Outcome o = carom("check second.toml");
+  EXPECT_EQ(o.status, 2);
+  EXPECT_THAT(o.err, HasSubstr("velocities: are of first, which does not tell whether they have a shear flow in them; "
+                               "expected the folder of a run, with its scene.toml"));
 }
 
 }  // namespace
