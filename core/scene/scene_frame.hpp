@@ -24,7 +24,8 @@ struct SceneFrame {
   // Of the flow vx = rate (y - height / 2) that a run with a shear writes in its velocities (core/disks/shear.hpp); 0
   // without one, absent where nothing tells.
   std::optional<double> shear_rate = 0.0;
-  double height = 0.0;  // of the box of that run
+  double height = 0.0;    // of the box of that run
+  bool brownian = false;  // velocities are u / dt of a run with Brownian motion, as far as its scene.toml tells
 };
 
 // Throws InputError, naming the file, where there is no such frame.

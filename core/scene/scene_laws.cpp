@@ -93,9 +93,18 @@ bool has_shear(const SceneOrigin& origin) {
   return box != nullptr && (*box)["shear_rate"].value_or(0.0) != 0.0;
 }
 
+bool draws_velocities(const SceneOrigin& origin) {
+  const toml::table* physics = origin.root->get_as<toml::table>("physics");
+  return physics != nullptr && (*physics)["diffusion"].value_or(0.0) > 0.0 && !(*physics)["accumulate"].value_or(false);
+}
+
 // The velocities of a frame as [[disks]] has them: in a box with a shear relative to the flow, without that of the run
 // that wrote them.
 std::vector<Vec2> velocities_of(const TableReader& owner, SceneFrame frame, const std::string& file) {
+  if (frame.brownian && !draws_velocities(owner.origin())) {
+    owner.fail("velocities", fmt::format("are of {}, whose disks are Brownian: u / dt of a step", file),
+               "expected velocities of another kind");
+  }
   if (!has_shear(owner.origin())) return std::move(frame.velocities);
   if (!frame.shear_rate) {
     owner.fail("velocities", fmt::format("are of {}, which does not tell whether they have a shear flow in them", file),

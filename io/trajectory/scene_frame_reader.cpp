@@ -24,19 +24,22 @@ std::string trajectory_of(const std::string& path) {
   return found;
 }
 
-// Of the run that wrote a frame, by the scene.toml beside it where that is its own; absent where that is not there. A
-// shear takes a box that is periodic both ways, and such a run without one counts rounds.
-std::optional<double> shear_rate_of(const std::string& trajectory, const TrajectoryFrame& frame) {
-  if (!frame.box.periodic_x() || !frame.box.periodic_y() || !frame.image_x.empty()) return 0.0;
+// Of the run that wrote a frame: the scene.toml beside it, where that is there and is its own.
+std::optional<Scene> scene_of(const std::string& trajectory, const TrajectoryFrame& frame) {
   const std::filesystem::path file = std::filesystem::path(trajectory).parent_path() / "scene.toml";
   if (!std::filesystem::exists(file)) return {};
   try {
-    const Scene scene = load_scene(file.string());
-    const bool own = scene.box.width == frame.box.width && scene.box.height == frame.box.height;
-    return own ? std::optional(scene.box.shear.rate) : std::nullopt;
+    Scene scene = load_scene(file.string());
+    if (scene.box.width == frame.box.width && scene.box.height == frame.box.height) return scene;
   } catch (const InputError&) {
-    return {};
   }
+  return {};
+}
+
+// Absent where nothing tells. A shear takes a box that is periodic both ways, and such a run without one counts rounds.
+std::optional<double> shear_rate_of(const std::optional<Scene>& scene, const TrajectoryFrame& frame) {
+  if (!frame.box.periodic_x() || !frame.box.periodic_y() || !frame.image_x.empty()) return 0.0;
+  return scene ? std::optional(scene->box.shear.rate) : std::nullopt;
 }
 
 }  // namespace
@@ -56,7 +59,9 @@ SceneFrame read_scene_frame(const FrameAsked& asked) {
     fail_input(path, fmt::format("there is no frame {}", *asked.index), fmt::format("expected 1 to {}", frames));
   }
   SceneFrame result;
-  result.shear_rate = shear_rate_of(path, chosen);
+  const std::optional<Scene> scene = scene_of(path, chosen);
+  result.shear_rate = shear_rate_of(scene, chosen);
+  result.brownian = scene && velocities_are_drawn(*scene);
   result.height = chosen.box.height;
   const Disks& d = chosen.disks;
   for (std::size_t i = 0; i < d.size(); ++i) {

@@ -73,6 +73,24 @@ TEST_F(LongFrameStart, WhatIsNoFrameIsRefused) {
   }
 }
 
+// They are u / dt of a step, and grow as dt shrinks: a gas at a temperature of hundreds.
+TEST_F(LongFrameStart, DisksDoNotFlyOnAsBrownianDisksHop) {
+  write("brownian.toml", test::replaced(test::replaced(with_frames, "restitution = 0.9", "diffusion = 0.5"),
+                                        "t_end = 1.0", "dt = 0.01\nt_end = 1.0"));
+  run("brownian.toml -o first");
+  for (const char* const brownian : {"", "diffusion = 0.5\n", "diffusion = 0.5\naccumulate = true\n"}) {
+    std::string second = test::replaced(with_frames, "restitution = 0.9\n", brownian);
+    second = test::replaced(second, "\"random\"", "{ frame = \"first\" }");
+    second = test::replaced(second, "{ maxwell = 1.0 }", "{ frame = \"first\" }");
+    write("second.toml", test::replaced(second, "t_end = 1.0", "dt = 0.01\nt_end = 1.0"));
+    const test::Outcome o = carom("check second.toml");
+    const bool fine = std::string_view(brownian) == "diffusion = 0.5\n";  // forgets them
+    EXPECT_EQ(o.status, fine ? 0 : 2) << brownian << o.err;
+    if (fine) continue;
+    EXPECT_THAT(o.err, HasSubstr("velocities: are of first, whose disks are Brownian: u / dt of a step; expected"));
+  }
+}
+
 // What a run writes has the flow in it; velocities of a scene are relative to that. It was added twice.
 TEST_F(LongFrameStart, AShearFlowIsNotAddedAgain) {
   std::string sheared = with_frames + "series = true\n";
