@@ -68,6 +68,7 @@ SceneFrame read_frame(const TableReader& owner, std::string_view name, const tom
   asked.path = (std::filesystem::path(law.origin().folder) / file).string();
   asked.index = law.count("index");
   asked.time = law.number("time");
+  asked.velocities = name == "velocities";
   if (asked.index && asked.time) law.fail("time", "given beside index", expected);
   if (!law.origin().frames) law.fail("frame", "cannot be read here", "expected positions of another kind");
   try {

@@ -59,10 +59,12 @@ SceneFrame read_scene_frame(const FrameAsked& asked) {
     fail_input(path, fmt::format("there is no frame {}", *asked.index), fmt::format("expected 1 to {}", frames));
   }
   SceneFrame result;
-  const std::optional<Scene> scene = scene_of(path, chosen);
-  result.shear_rate = shear_rate_of(scene, chosen);
-  result.brownian = scene && velocities_are_drawn(*scene);
-  result.height = chosen.box.height;
+  if (asked.velocities) {
+    const std::optional<Scene> scene = scene_of(path, chosen);
+    result.shear_rate = shear_rate_of(scene, chosen);
+    result.brownian = scene && velocities_are_drawn(*scene);
+    result.height = chosen.box.height;
+  }
   const Disks& d = chosen.disks;
   for (std::size_t i = 0; i < d.size(); ++i) {
     result.positions.push_back({d.x[i], d.y[i]});

@@ -76,7 +76,7 @@ TEST_F(SceneFrames, TellsTheShearOfItsRun) {
                   fmt::format("1\nLattice=\"10 0 0 0 8 0 0 0 1\" pbc=\"{} F\" Properties=pos:R:2:velo:"
                               "R:2:radius:R:1:mass:R:1:id:I:1{} Time=0\n1 2 3 4 0.5 6 0{}\n",
                               sides, column, value));
-    return read_scene_frame({folder_.path().string(), {}, {}});
+    return read_scene_frame({folder_.path().string(), {}, {}, true});
   };
   const auto scene = [this](double height, std::string_view more) {
     folder_.write("scene.toml",
