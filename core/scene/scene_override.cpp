@@ -55,6 +55,16 @@ toml::node& descend(toml::node& node, std::string_view segment, const std::strin
              "expected a key of the scene");
 }
 
+// What was expected of a value that cannot be read. The shell takes the quotes around a text that has blanks.
+std::string expected_value(const Override& change) {
+  const std::string_view value = change.value;
+  const bool text =
+      value.find_first_of("\"'[]{}\n") == std::string_view::npos &&
+      std::any_of(value.begin(), value.end(), [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); });
+  if (!text) return "expected a value as in TOML";
+  return fmt::format("expected a value as in TOML, text in quotes of its own: '{}={}'", change.key, in_quotes(value));
+}
+
 // The table { v = value }.
 toml::table parse_value(const Override& change, const std::string& where) {
   const std::string& value = change.value;
@@ -69,8 +79,7 @@ toml::table parse_value(const Override& change, const std::string& where) {
     if (parsed.size() == 1 && value.find('\n') == std::string::npos) return parsed;
   } catch (const toml::parse_error& e) {
     if (is_bare_word(value)) return toml::table{{"v", value}};
-    fail_input(where, fmt::format("cannot read {}: {}", in_quotes(value), e.description()),
-               "expected a value as in TOML");
+    fail_input(where, fmt::format("cannot read {}: {}", in_quotes(value), e.description()), expected_value(change));
   }
   fail_input(where, fmt::format("cannot read {}", in_quotes(value)), "expected one value as in TOML");
 }

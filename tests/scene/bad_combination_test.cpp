@@ -342,6 +342,11 @@ TEST(BadOverride, IsNamedByItsKey) {
   EXPECT_THAT(complaint(sound_scene, {{"disks.0.count", "99999999999999999999"}}),
               StartsWith("--set disks.0.count: is 99999999999999999999, too large for the 64 bits of a whole number; "
                          "write it as 1e+20; expected a whole number"));
+  EXPECT_THAT(complaint(sound_scene, {{"title", "two words"}}),
+              EndsWith("; expected a value as in TOML, text in quotes of its own: 'title=\"two words\"'"));
+  EXPECT_THAT(complaint(sound_scene, {{"output.checkpoint", "10 min"}}),
+              EndsWith("text in quotes of its own: 'output.checkpoint=\"10 min\"'"));
+  EXPECT_THAT(complaint(sound_scene, {{"run.t_end", "1,5"}}), EndsWith("; expected a value as in TOML"));
   EXPECT_THAT(complaint(sound_scene, {{"run.t_end", ""}}), StartsWith("--set run.t_end: cannot read"));
   EXPECT_THAT(complaint(sound_scene, {{"run.t_end", "1\n[run]"}}), StartsWith("--set run.t_end: cannot read"));
   EXPECT_THAT(complaint(sound_scene, {{"run.t_end", "\u22121"}}), HasSubstr("outside a string"));
