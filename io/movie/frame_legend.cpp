@@ -7,6 +7,7 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "core/disks/obstacle_cells.hpp"
 #include "core/scene/scene_names.hpp"
@@ -36,18 +37,33 @@ void draw_text(cairo_t* c, const std::string& text, double x, double y, double s
   cairo_show_text(c, text.c_str());
 }
 
-// Cuts text at a character boundary until it is at most `room` wide at this size.
+// With U+FFFD, which stands for what cannot be shown, for U+FFFE and U+FFFF, which are no characters.
+std::string without_noncharacters(std::string text) {
+  for (const std::string_view none : {"\xef\xbf\xbe", "\xef\xbf\xbf"}) {
+    for (std::size_t at = 0; (at = text.find(none, at)) != std::string::npos;) text[at + 2] = '\xbd';
+  }
+  return text;
+}
+
+// Takes the last character away; of UTF-8.
+void shorten(std::string& text) {
+  while (text.size() > 1 && (static_cast<unsigned char>(text.back()) & 0xc0U) == 0x80U) text.pop_back();
+  text.pop_back();
+}
+
+// Cuts text at a character boundary until it is at most `room` wide at this size. Half a character, and U+FFFE and
+// U+FFFF, would be an error to Cairo, which draws nothing more.
 std::string fitting(cairo_t* c, std::string text, double size, double room, bool bold = false) {
+  text = without_noncharacters(text);
   // No picture has room for more; measuring takes time for each letter.
   constexpr std::size_t most_bytes = 2000;
-  text.resize(std::min(text.size(), most_bytes));
+  while (text.size() > most_bytes) shorten(text);
   select_font(c, size, bold);
   cairo_text_extents_t extents;
   cairo_text_extents(c, text.c_str(), &extents);
   if (extents.x_advance <= room) return text;
   while (!text.empty() && extents.x_advance > room) {
-    while (text.size() > 1 && (static_cast<unsigned char>(text.back()) & 0xc0U) == 0x80U) text.pop_back();
-    text.pop_back();
+    shorten(text);
     cairo_text_extents(c, (text + "…").c_str(), &extents);
   }
   return text + "…";

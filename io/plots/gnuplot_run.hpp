@@ -7,7 +7,7 @@
 namespace carom {
 
 // In single quotes gnuplot takes everything literally but the quote itself, which is doubled: no escapes, no command
-// substitution. Control characters become blanks.
+// substitution. Control characters become blanks, and what no SVG file may have is changed.
 std::string gnuplot_quoted(const std::string& text);
 
 // A picture that a script writes under `name` (set output) and where it shall go.

@@ -181,6 +181,15 @@ TEST_F(Plot, LongTitlesAndNamesAreShortened) {
   EXPECT_TRUE(svg.find("xx…: energy<") != std::string::npos);
 }
 
+// Browsers show nothing of a file with "]]>" in its text, or with U+FFFE.
+TEST_F(Plot, TitlesThatNoXmlMayHave) {
+  const std::string path = at("odd.svg");
+  ASSERT_TRUE(draw_svg({"a]]>b]]>\xef\xbf\xbe\xef\xbf\xbf.", "t", 1.0, {{"y", {}}}}, path));
+  const std::string svg = text_of(path);
+  EXPECT_TRUE(svg.find("a]] >b]] >\ufffd\ufffd.") != std::string::npos);
+  EXPECT_TRUE(svg.find("]]>") == std::string::npos);
+}
+
 TEST_F(Plot, AFullDiskIsAnError) {
   EXPECT_THROW(plot_energy("/dev/full", "full", {{0.0, 1.0}, {2.0, 1.0}, {0.0, 1.0}, {2.0, 2.0}}), RunError);
 }

@@ -57,6 +57,17 @@ class Render : public test::ProgramTest {
 };
 using LongRender = Render;
 
+// Half a character, or one that is none, is an error to Cairo, which drew nothing more: no title, and no colours.
+TEST_F(Render, OddTitlesLeaveThePictureWhole) {
+  std::string three_bytes_each = "x";
+  for (int k = 0; k < 700; ++k) three_bytes_each += "日";
+  for (const std::string& title : {three_bytes_each, std::string("\xef\xbf\xbe a \xef\xbf\xbf")}) {
+    run_small("--set output.movie=false --set 'title=\"" + title + "\"'");
+    const Outcome o = carom("render out -o out/last.svg --force");
+    EXPECT_EQ(o.status, 0) << o.err;
+  }
+}
+
 TEST_F(LongRender, TheScenesMovieLooksAsItSays) {
   run_small();
   EXPECT_EQ(probe("out/movie.mp4"), "h264,640,400,5/1,5\n");
