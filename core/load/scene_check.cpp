@@ -10,6 +10,7 @@
 #include "core/load/brownian_warnings.hpp"
 #include "core/load/memory_need.hpp"
 #include "core/load/settling_warning.hpp"
+#include "core/load/wall_warnings.hpp"
 #include "core/scene/scene_names.hpp"
 #include "core/scene/scene_range_check.hpp"
 #include "core/scene/scene_ranges.hpp"
@@ -335,6 +336,7 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
   }
   for (std::string& warning : brownian_warnings(scene)) warnings.push_back(std::move(warning));
   for (std::string& warning : settling_warnings(scene)) warnings.push_back(std::move(warning));
+  for (std::string& warning : wall_warnings(scene)) warnings.push_back(std::move(warning));
   warn_of_interval(scene, "output.every", scene.output.every, warnings);
   if (scene.analysis.any() && scene.analysis.every != scene.output.every)
     warn_of_interval(scene, "analysis.every", scene.analysis.every, warnings);

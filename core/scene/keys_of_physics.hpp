@@ -84,8 +84,9 @@ inline constexpr SceneKey keys[] = {
      "it is; a side moves within it.",
      "right = { place = 50.0, motion = { velocity = [0.1, 0.0] } }"},
     {"box.side.motion", "velocity", special, Dimension::speed, "",
-     "Constant, across the side: what drags disks along is an inner wall that moves so, on the edge of the box if need "
-     "be, with `wall_roughness`.",
+     "Constant, across the side: what drags disks along is an inner wall that moves so, a thousandth of a radius "
+     "before "
+     "the side if need be, with `wall_roughness`.",
      "right = { motion = { velocity = [-0.1, 0.0] } }", "[vx, vy]"},
     {"box.side.motion", "vibrate", special, Dimension::length, "",
      "Amplitude of a vibration across the side, which begins at the middle in this direction.",

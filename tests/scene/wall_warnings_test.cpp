@@ -1,0 +1,60 @@
+// Inner walls along a side of the box: a disk that comes to both meets either. Belts at the top and at the right took
+// hold of half the disks without a word.
+#include "core/load/wall_warnings.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "core/load/scene_check.hpp"
+#include "tests/support/scene_support.hpp"
+
+namespace carom {
+namespace {
+
+using test::replaced;
+using test::sound_scene;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+// Of the sound scene, a box of 20 x 10, with a wall.
+std::vector<std::string> warnings(const std::string& wall, const std::vector<Override>& sets = {}) {
+  return wall_warnings(test::scene_from(replaced(sound_scene, "[run]", "[[walls]]\n" + wall + "\n[run]"), sets));
+}
+
+constexpr const char* along_top = "points = [[4, 10], [9, 10]]";
+
+TEST(WallWarnings, AWallThatDiffersFromTheSideBehindIt) {
+  EXPECT_THAT(
+      warnings(std::string(along_top) + "\nrestitution = 0.25"),
+      ElementsAre("gas.toml:20: walls.0: lies along the top side, and a disk that comes to both meets either, as "
+                  "rounding has it; put it before the side, by a thousandth of a radius"));
+  for (const auto& [points, side] : {std::pair("[[0, 2], [0, 4]]", "left"), std::pair("[[20, 2], [20, 4]]", "right"),
+                                     std::pair("[[1, 1], [2, 0], [4, 0]]", "bottom")}) {
+    EXPECT_THAT(warnings(fmt::format("points = {}\nrestitution = 0.25", points)),
+                ElementsAre(testing::HasSubstr(fmt::format("walls.0: lies along the {} side, ", side))));
+  }
+  EXPECT_THAT(warnings(std::string(along_top) + "\nmotion = { velocity = [0.1, 0] }"), testing::SizeIs(1)) << "a belt";
+  EXPECT_THAT(warnings(along_top, {{"box.top", "{ temperature = 1.0 }"}}), testing::SizeIs(1));
+  EXPECT_THAT(warnings(along_top, {{"box.top", "{ restitution = 0.5 }"}}), testing::SizeIs(1));
+  EXPECT_THAT(
+      warnings(std::string(along_top) + "\nrestitution = 0.25", {{"run.method", "rollback"}, {"run.dt", "0.1"}}),
+      ElementsAre(testing::EndsWith("meets the side; put it before the side, by a thousandth of a radius, and "
+                                    "take another method")));
+}
+
+TEST(WallWarnings, NoneOfOthers) {
+  EXPECT_THAT(warnings(along_top), IsEmpty()) << "the same as the side";
+  EXPECT_THAT(warnings(std::string(along_top) + "\nkind = \"sink\""), IsEmpty());
+  EXPECT_THAT(warnings(std::string(along_top) + "\nrestitution = 0.25", {{"box.top", "\"sink\""}}), IsEmpty());
+  EXPECT_THAT(warnings("points = [[4, 9.999], [9, 9.999]]\nrestitution = 0.25"), IsEmpty());
+  EXPECT_THAT(warnings("points = [[4, 10], [9, 9]]\nrestitution = 0.25"), IsEmpty()) << "touches it";
+}
+
+TEST(WallWarnings, AreAmongThoseOfTheScene) {
+  const std::string text =
+      replaced(sound_scene, "[run]", std::string("[[walls]]\n") + along_top + "\nrestitution = 0.25\n[run]");
+  EXPECT_THAT(scene_warnings(test::scene_from(text)), testing::Contains(testing::HasSubstr("walls.0: lies along")));
+}
+
+}  // namespace
+}  // namespace carom
