@@ -10,6 +10,7 @@
 #include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
 #include "core/load/scene_file.hpp"
+#include "core/scene/drawn_velocities.hpp"
 #include "io/trajectory/trajectory_reader.hpp"
 
 namespace carom {
