@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/base/check.hpp"
-#include "parallel/slabs/moving_disks.hpp"
+#include "core/disks/disk_columns.hpp"
 #include "parallel/slabs/random_on_slabs.hpp"
 #include "parallel/slabs/slab_orders.hpp"
 #include "parallel/slabs/slab_start.hpp"

@@ -10,6 +10,7 @@
 #include "core/base/check.hpp"
 #include "core/base/float_environment.hpp"
 #include "core/base/input_message.hpp"
+#include "core/disks/disk_columns.hpp"
 #include "core/disks/state_hash.hpp"
 #include "core/physics/boundary.hpp"
 #include "core/physics/obstacle_contact.hpp"
@@ -177,22 +178,7 @@ double Simulation::disks_at(double t, Disks& out) const {
   }
   Disks stored = state().disks;
   const double at = edited_ ? time() : engine_->disks_at(t, stored);
-  const std::vector<std::size_t> by = by_id(stored);  // disks that a sink took in the last step are there again
-  const auto sort = [&](auto& to, const auto& from) {
-    to.resize(from.size());
-    for (std::size_t k = 0; k < from.size(); ++k) to[k] = from[by[k]];
-  };
-  sort(out.x, stored.x);
-  sort(out.y, stored.y);
-  sort(out.vx, stored.vx);
-  sort(out.vy, stored.vy);
-  sort(out.id, stored.id);
-  sort(out.radius, stored.radius);
-  sort(out.mass, stored.mass);
-  sort(out.spin, stored.spin);
-  out.inertia = stored.inertia;
-  out.common_radius = stored.common_radius;
-  out.common_mass = stored.common_mass;
+  gather_disks(stored, by_id(stored), out);  // disks that a sink took in the last step are there again
   return at;
 }
 

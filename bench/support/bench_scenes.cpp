@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bench/support/gas_features.hpp"
+#include "core/disks/disk_columns.hpp"
 #include "core/load/scene_file.hpp"
 #include "core/physics/event_order.hpp"
 #include "core/start/initial_state.hpp"
@@ -158,9 +159,7 @@ State shuffled(State state) {
     order[i] = i;
     std::swap(order[i], order[random() % (i + 1)]);
   }
-  Disks& d = state.disks;
-  for (std::vector<double>* column : {&d.x, &d.y, &d.vx, &d.vy, &d.radius, &d.mass}) permute(*column, order);
-  permute(d.id, order);
+  for_each_column(state.disks, [&](auto& column) { permute(column, order); });
   return state;
 }
 

@@ -3,26 +3,18 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/disks/disk_columns.hpp"
+
 namespace carom {
 
 void append(Disks& d, const Disk& disk) {
-  const std::size_t n = d.size();
-  if (n == 0 && d.radius.empty() && d.mass.empty() && d.common_radius == 0.0) {
+  if (d.empty() && d.radius.empty() && d.mass.empty() && d.common_radius == 0.0) {
     d.common_radius = disk.radius;
     d.common_mass = disk.mass;
   }
-  if (d.radius.empty() && disk.radius != d.common_radius) d.radius.assign(n, d.common_radius);
-  if (d.mass.empty() && disk.mass != d.common_mass) d.mass.assign(n, d.common_mass);
-  const bool own_radius = !d.radius.empty() || disk.radius != d.common_radius;
-  const bool own_mass = !d.mass.empty() || disk.mass != d.common_mass;
-  d.x.push_back(disk.x);
-  d.y.push_back(disk.y);
-  d.vx.push_back(disk.vx);
-  d.vy.push_back(disk.vy);
-  d.id.push_back(disk.id);
-  if (own_radius) d.radius.push_back(disk.radius);
-  if (own_mass) d.mass.push_back(disk.mass);
-  if (d.spins()) d.spin.push_back(disk.spin);
+  DiskColumns columns = columns_of(d);
+  make_columns_for(disk, columns, d);
+  push_back(d, disk, columns);
 }
 
 namespace {
@@ -40,31 +32,16 @@ void close_up(std::vector<T>& column, const std::vector<unsigned char>& gone) {
 
 std::size_t remove_marked(Disks& d, const std::vector<unsigned char>& gone) {
   const std::size_t before = d.size();
-  close_up(d.x, gone);
-  close_up(d.y, gone);
-  close_up(d.vx, gone);
-  close_up(d.vy, gone);
-  close_up(d.id, gone);
-  close_up(d.radius, gone);
-  close_up(d.mass, gone);
-  close_up(d.spin, gone);
+  for_each_column(d, [&](auto& column) { close_up(column, gone); });
   return before - d.size();
 }
 
 void take_out(Disks& d, std::size_t i) {
-  const auto close = [i](auto& column) {
+  for_each_column(d, [i](auto& column) {
     if (column.empty()) return;
     column[i] = column.back();
     column.pop_back();
-  };
-  close(d.x);
-  close(d.y);
-  close(d.vx);
-  close(d.vy);
-  close(d.id);
-  close(d.radius);
-  close(d.mass);
-  close(d.spin);
+  });
 }
 
 double largest_radius(const Disks& d) {

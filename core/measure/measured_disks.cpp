@@ -1,23 +1,16 @@
 #include "core/measure/measured_disks.hpp"
 
+#include "core/disks/disk_columns.hpp"
 #include "core/measure/bond_order.hpp"
 #include "core/measure/shear_flow.hpp"
 
 namespace carom {
 
 Disks disks_of(const Disks& all, const IdRange& ids) {
-  Disks some;
-  some.common_radius = all.common_radius;
-  some.common_mass = all.common_mass;
+  Disks some = no_disks_like(all);
+  const DiskColumns columns = columns_of(all);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!ids.holds(all.id[i])) continue;
-    some.x.push_back(all.x[i]);
-    some.y.push_back(all.y[i]);
-    some.vx.push_back(all.vx[i]);
-    some.vy.push_back(all.vy[i]);
-    some.id.push_back(all.id[i]);
-    if (!all.radius.empty()) some.radius.push_back(all.radius[i]);
-    if (!all.mass.empty()) some.mass.push_back(all.mass[i]);
+    if (ids.holds(all.id[i])) push_back(some, disk_at(all, i), columns);
   }
   return some;
 }

@@ -14,6 +14,7 @@
 
 #include "core/base/check.hpp"
 #include "core/base/input_file.hpp"
+#include "core/disks/disk_columns.hpp"
 #include "io/checkpoint/checkpoint_fields.hpp"
 #include "io/checkpoint/stored_disks.hpp"
 #include "io/files/block_hash.hpp"
@@ -162,12 +163,11 @@ std::uint64_t verified_content(std::ifstream& file, const std::string& path) {
 // What must hold of any state. Only a bug in the program that wrote the file can break it.
 void check_state(const State& state) {
   const Disks& d = state.disks;
-  const std::size_t n = d.size();
-  const auto fits = [n](const std::vector<double>& column) { return column.empty() || column.size() == n; };
-  const bool whole =
-      d.y.size() == n && d.vx.size() == n && d.vy.size() == n && d.id.size() == n && fits(d.radius) && fits(d.mass);
-  if (d.spin.size() != (d.spins() ? n : 0)) throw BadBytes("has spins of other disks");
-  if (!whole) throw BadBytes("has columns of different lengths");
+  const DiskColumns columns = columns_of(d);
+  for_each_column([&](const auto& column) {
+    const std::size_t entries = column.is_in(columns) ? d.size() : 0;
+    if ((d.*column.entries).size() != entries) throw BadBytes(misfit(column));
+  });
   const auto born = [&](DiskId id) { return id < state.next_id; };
   if (!std::all_of(d.id.begin(), d.id.end(), born)) throw BadBytes("has a disk that was never made");
   const std::size_t times = state.last_contact.size();
@@ -206,10 +206,13 @@ Checkpoint decode(ByteReader reader, const std::string& name) {
 
 // Where a column of the disks is noted; null: the list is another one.
 StoredColumn* column_for(const void* list, Disks& disks, StoredColumns& columns) {
-  if (list == &disks.id) return &columns.id;
-  const auto numbers = columns_of_numbers(disks);
-  const auto at = std::find(numbers.begin(), numbers.end(), list);
-  return at == numbers.end() ? nullptr : &columns.numbers[static_cast<std::size_t>(at - numbers.begin())];
+  StoredColumn* found = nullptr;
+  std::size_t k = 0;
+  for_each_column(disks, [&](const auto& entries) {
+    if (list == &entries) found = &columns[k];
+    ++k;
+  });
+  return found;
 }
 
 }  // namespace

@@ -17,18 +17,21 @@ StoredDisks::StoredDisks(std::ifstream file, std::string name, const StoredColum
       name_(std::move(name)),
       columns_(columns),
       none_(none),
-      size_(static_cast<std::size_t>(columns.id.bytes / sizeof(DiskId))) {
-  const auto fits = [&](const StoredColumn& column, bool needed) {
-    return column.bytes == size_ * sizeof(double) || (!needed && column.bytes == 0);
-  };
-  const auto& [x, y, vx, vy, radius, mass, spin] = columns.numbers;
-  if (none.spins() ? !fits(spin, true) : spin.bytes > 0) throw BadBytes("has spins of other disks");
-  const bool whole =
-      fits(x, true) && fits(y, true) && fits(vx, true) && fits(vy, true) && fits(radius, false) && fits(mass, false);
-  if (!whole) throw BadBytes("has columns of different lengths");
+      size_(static_cast<std::size_t>(columns.back().bytes / sizeof(DiskId))) {
+  std::size_t k = 0;
+  for_each_column([&](const auto& column) {
+    if (column.flag != nullptr) present_.*column.flag = columns[k].bytes > 0;
+    ++k;
+  });
+  present_.spin = none.spins();
+  k = 0;
+  for_each_column([&]<class T>(const DiskColumn<T>& column) {
+    if (columns[k++].bytes == (column.is_in(present_) ? size_ : 0) * sizeof(T)) return;
+    throw BadBytes(misfit(column));
+  });
   std::vector<DiskId> ids;
   for (std::size_t begin = 0; begin < size_; begin += disks_of_a_read) {
-    read_column(columns_.id, begin, std::min(size_, begin + disks_of_a_read), ids);
+    read_column(columns_.back(), begin, std::min(size_, begin + disks_of_a_read), ids);
     const bool born = std::all_of(ids.begin(), ids.end(), [&](DiskId id) { return id < next_id; });
     if (!born) throw BadBytes("has a disk that was never made");
   }
@@ -36,9 +39,8 @@ StoredDisks::StoredDisks(std::ifstream file, std::string name, const StoredColum
 
 Disks StoredDisks::read(std::size_t begin, std::size_t end) {
   Disks some = none_;
-  const auto numbers = columns_of_numbers(some);
-  for (std::size_t k = 0; k < numbers.size(); ++k) read_column(columns_.numbers[k], begin, end, *numbers[k]);
-  read_column(columns_.id, begin, end, some.id);
+  std::size_t k = 0;
+  for_each_column(some, [&](auto& entries) { read_column(columns_[k++], begin, end, entries); });
   return some;
 }
 

@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <fstream>
 #include <string>
+#include <vector>
 
+#include "core/disks/disk_columns.hpp"
 #include "core/disks/disk_source.hpp"
 
 namespace carom {
@@ -16,14 +18,13 @@ struct StoredColumn {
   std::uint64_t bytes = 0;
 };
 
-struct StoredColumns {
-  std::array<StoredColumn, 7> numbers;  // in the order of columns_of_numbers
-  StoredColumn id;
-};
+// In the order of for_each_column.
+using StoredColumns = std::array<StoredColumn, count_columns()>;
 
-// All columns but that of ids.
-inline std::array<std::vector<double>*, 7> columns_of_numbers(Disks& d) {
-  return {&d.x, &d.y, &d.vx, &d.vy, &d.radius, &d.mass, &d.spin};
+// What a file has whose column is not of its disks.
+template <class T>
+const char* misfit(const DiskColumn<T>& column) {
+  return column.flag == &DiskColumns::spin ? "has spins of other disks" : "has columns of different lengths";
 }
 
 class StoredDisks final : public DiskSource {
@@ -33,8 +34,8 @@ class StoredDisks final : public DiskSource {
   StoredDisks(std::ifstream file, std::string name, const StoredColumns& columns, const Disks& none, DiskId next_id);
 
   std::size_t size() const override { return size_; }
-  bool has_radii() const override { return columns_.numbers[4].bytes > 0; }
-  bool has_masses() const override { return columns_.numbers[5].bytes > 0; }
+  bool has_radii() const override { return present_.radius; }
+  bool has_masses() const override { return present_.mass; }
   // Throws RunError where the file can be read no more.
   Disks read(std::size_t begin, std::size_t end) override;
 
@@ -45,6 +46,7 @@ class StoredDisks final : public DiskSource {
   std::ifstream file_;
   std::string name_;
   StoredColumns columns_;
+  DiskColumns present_;
   Disks none_;
   std::size_t size_;
 };

@@ -8,6 +8,7 @@
 
 #include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
+#include "core/disks/disk_columns.hpp"
 #include "io/hdf5/hdf5_handle.hpp"
 #include "io/trajectory/h5md_layout.hpp"
 
@@ -181,17 +182,9 @@ void H5mdReader::File::read_frame(Count next, TrajectoryFrame& frame) {
       frame.image_x.push_back(images[at]);
       frame.image_y.push_back(images[at + 1]);
     }
-    Disks& d = frame.disks;
-    d.x.push_back(xy[at]);
-    d.y.push_back(xy[at + 1]);
-    d.vx.push_back(vxy[at]);
-    d.vy.push_back(vxy[at + 1]);
-    d.radius.push_back(radii[p]);
-    d.mass.push_back(masses[p]);
-    d.id.push_back(ids[p]);
-    if (has_spin) d.spin.push_back(spins[p]);
-    for (const double value :
-         {d.x.back(), d.y.back(), d.vx.back(), d.vy.back(), radii[p], masses[p], has_spin ? spins[p] : 0.0}) {
+    const Disk disk{xy[at], xy[at + 1], vxy[at], vxy[at + 1], radii[p], masses[p], ids[p], has_spin ? spins[p] : 0.0};
+    push_back(frame.disks, disk, {.radius = true, .mass = true, .spin = has_spin});
+    for (const double value : {disk.x, disk.y, disk.vx, disk.vy, disk.radius, disk.mass, disk.spin}) {
       if (!std::isfinite(value)) fail(fmt::format("frame {}: disk {} has a value that is no number", next + 1, ids[p]));
     }
   }

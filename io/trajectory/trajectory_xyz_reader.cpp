@@ -14,6 +14,7 @@
 #include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
 #include "core/base/short_number.hpp"
+#include "core/disks/disk_columns.hpp"
 #include "io/trajectory/trajectory_xyz.hpp"
 
 namespace carom {
@@ -187,20 +188,21 @@ void XyzReader::read_disk(XyzFrame& frame) const {
   };
   flat(at.position, at.position_width);
   flat(at.velocity, at.velocity_width);
-  Disks& disks = frame.disks;
-  disks.id.push_back(whole_number<DiskId>(columns[at.id], "disk id"));
-  disks.x.push_back(number(columns[at.position]));
-  disks.y.push_back(number(columns[at.position + 1]));
-  disks.vx.push_back(number(columns[at.velocity]));
-  disks.vy.push_back(number(columns[at.velocity + 1]));
+  Disk disk;
+  disk.id = whole_number<DiskId>(columns[at.id], "disk id");
+  disk.x = number(columns[at.position]);
+  disk.y = number(columns[at.position + 1]);
+  disk.vx = number(columns[at.velocity]);
+  disk.vy = number(columns[at.velocity + 1]);
   const auto above_zero = [&](std::size_t column, const char* what) {
     const double value = number(columns[column]);
     if (!(value > 0.0)) fail(fmt::format("{} is {}, expected a number above 0", what, columns[column]));
     return value;
   };
-  disks.radius.push_back(above_zero(at.radius, "radius"));
-  disks.mass.push_back(above_zero(at.mass, "mass"));
-  if (at.has_spin) disks.spin.push_back(number(columns[at.spin]));
+  disk.radius = above_zero(at.radius, "radius");
+  disk.mass = above_zero(at.mass, "mass");
+  if (at.has_spin) disk.spin = number(columns[at.spin]);
+  push_back(frame.disks, disk, {.radius = true, .mass = true, .spin = at.has_spin});
   if (at.has_group) frame.group.push_back(whole_number<DiskId>(columns[at.group], "group"));
   if (!at.has_image) return;
   frame.image_x.push_back(whole_number<std::int32_t>(columns[at.image], "number of rounds"));
@@ -224,8 +226,7 @@ void XyzReader::sort_by_id(XyzFrame& frame) const {
     const auto as_read = column;
     for (std::size_t k = 0; k < column.size(); ++k) column[k] = as_read[order[k]];
   };
-  for (auto* const column : {&d.x, &d.y, &d.vx, &d.vy, &d.radius, &d.mass, &d.spin}) sort(*column);
-  sort(d.id);
+  for_each_column(d, sort);
   sort(frame.group);
   sort(frame.image_x);
   sort(frame.image_y);

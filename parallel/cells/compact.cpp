@@ -1,6 +1,9 @@
 #include "parallel/cells/compact.hpp"
 
 #include <cstddef>
+#include <tuple>
+
+#include "core/disks/disk_columns.hpp"
 
 namespace carom {
 
@@ -35,10 +38,10 @@ void remove_in_parallel(Disks& d, const std::vector<unsigned char>& gone, const 
     first[b + 1] = kept;
   });
   for (std::size_t b = 0; b < blocks; ++b) first[b + 1] += first[b];
-  for (std::vector<double>* c : {&d.x, &d.y, &d.vx, &d.vy, &d.radius, &d.mass, &d.spin}) {
-    close_up(*c, column, gone, first, executor);
-  }
-  close_up(d.id, ids, gone, first, executor);
+  for_each_column(d, [&](auto& entries) {
+    auto& scratch = std::get<decltype(entries)>(std::tie(column, ids));  // of the same type
+    close_up(entries, scratch, gone, first, executor);
+  });
 }
 
 }  // namespace carom

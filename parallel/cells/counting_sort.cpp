@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <tuple>
 #include <utility>
+
+#include "core/disks/disk_columns.hpp"
 
 namespace carom {
 
@@ -107,10 +110,10 @@ void sort_into_cells(Disks& d, const CellGrid& grid, const Executor& executor, S
   const Buckets buckets = buckets_for(grid.keys);
   scatter_to_buckets(d, grid, executor, buckets, cells);
   sort_buckets(executor, buckets, grid.keys, n, cells);
-  for (std::vector<double>* column : {&d.x, &d.y, &d.vx, &d.vy, &d.radius, &d.mass, &d.spin}) {
-    if (!column->empty()) move_column(*column, cells.column, cells.order, executor);
-  }
-  move_column(d.id, cells.pass, cells.order, executor);
+  for_each_column(d, [&](auto& column) {
+    auto& scratch = std::get<decltype(column)>(std::tie(cells.column, cells.pass));  // of the same type
+    if (!column.empty()) move_column(column, scratch, cells.order, executor);
+  });
   move_column(cells.key, cells.pass, cells.order, executor);
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/disks/disk_columns.hpp"
+
 namespace carom {
 
 namespace {
@@ -48,18 +50,7 @@ void HaloPart::take_disks(const Disks& all, const BoxCut& cut, std::size_t part)
   for (std::size_t k = 0; k < c.size(); ++k) {
     if (is_here(c[k])) slots_.push_back(static_cast<std::uint32_t>(k));
   }
-  Disks& d = state_.disks;
-  take(all.x, slots_, d.x);
-  take(all.y, slots_, d.y);
-  take(all.vx, slots_, d.vx);
-  take(all.vy, slots_, d.vy);
-  take(all.id, slots_, d.id);
-  take(all.radius, slots_, d.radius);
-  take(all.mass, slots_, d.mass);
-  take(all.spin, slots_, d.spin);
-  d.common_radius = all.common_radius;
-  d.common_mass = all.common_mass;
-  d.inertia = all.inertia;
+  gather_disks(all, slots_, state_.disks);
 }
 
 void HaloPart::build(const WindowPlan& plan, const BoxCut& cut, State& all, double largest_radius, std::size_t first,

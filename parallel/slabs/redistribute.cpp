@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/disks/disk_columns.hpp"
 #include "parallel/ranks/message.hpp"
 #include "parallel/slabs/disk_pieces.hpp"
 #include "parallel/slabs/load_memory.hpp"
@@ -107,10 +108,7 @@ void take_newcomers(const SlabCut& cut, int rank, const Disks& newcomers, bool a
   }
   for (std::size_t k = 0; k < newcomers.size(); ++k) {
     const Disk disk = disk_at(newcomers, k);
-    if (!columns.radius && disk.radius != own.common_radius) own.radius.assign(own.size(), own.common_radius);
-    if (!columns.mass && disk.mass != own.common_mass) own.mass.assign(own.size(), own.common_mass);
-    columns.radius = columns.radius || disk.radius != own.common_radius;
-    columns.mass = columns.mass || disk.mass != own.common_mass;
+    make_columns_for(disk, columns, own);
     if (cut.rank_at(disk.y) == rank) push_back(own, disk, columns);
   }
 }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/disks/cell_index.hpp"
+#include "core/disks/disk_columns.hpp"
 #include "core/step/source.hpp"
 #include "parallel/cells/cell_grid.hpp"
 #include "parallel/ranks/message.hpp"
@@ -146,11 +147,7 @@ void keep_own_disks(const SlabCut& cut, int rank, Disks& disks) {
   std::vector<unsigned char> gone(disks.size());
   for (std::size_t i = 0; i < disks.size(); ++i) gone[i] = cut.rank_at(disks.y[i]) == rank ? 0 : 1;
   remove_marked(disks, gone);
-  for (std::vector<double>* column :
-       {&disks.x, &disks.y, &disks.vx, &disks.vy, &disks.radius, &disks.mass, &disks.spin}) {
-    column->shrink_to_fit();
-  }
-  disks.id.shrink_to_fit();
+  for_each_column(disks, [](auto& column) { column.shrink_to_fit(); });
 }
 
 }  // namespace carom

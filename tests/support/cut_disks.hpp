@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <optional>
-#include <utility>
 #include <vector>
 
+#include "core/disks/disk_columns.hpp"
 #include "core/disks/disks_in_pieces.hpp"
 
 namespace carom::test {
@@ -37,14 +37,7 @@ class CutDisks final : public DisksInPieces {
     Disks some;
     some.inertia = disks_.inertia;
     for (auto i = piece.rbegin(); i != piece.rend(); ++i) {
-      const Disk disk = disk_at(disks_, *i);
-      for (const auto& [column, value] :
-           {std::pair(&some.x, disk.x), std::pair(&some.y, disk.y), std::pair(&some.vx, disk.vx),
-            std::pair(&some.vy, disk.vy), std::pair(&some.radius, disk.radius), std::pair(&some.mass, disk.mass)}) {
-        column->push_back(value);
-      }
-      some.id.push_back(disk.id);
-      if (some.spins()) some.spin.push_back(disk.spin);
+      push_back(some, disk_at(disks_, *i), {.radius = true, .mass = true, .spin = some.spins()});
     }
     piece.clear();
     use(some);
