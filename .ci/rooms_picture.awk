@@ -18,14 +18,14 @@ function by_another(a, b,    k) {
 BEGIN {
     box_width = 150; box_height = 34; gap = 26; row_gap = 12; margin = 14; head = 26
     # The folders: left and top of the frame's place, in columns of boxes and in rows of frames.
-    split("tests:0:0 bench:0:1 app:3:1 library:6:1 python:7:1 run:3:2 parallel:0:3 io:4:3 core:0:4", places, " ")
+    split("tests:0:0 bench:0:1 app:3:1 python:7:1 run:3:2 parallel:0:3 io:4:3 core:0:4", places, " ")
     for (k in places) {
         split(places[k], part, ":")
         column_of[part[1]] = part[2]
         band_of[part[1]] = part[3]
     }
     # Arrows between folders that do not follow from others.
-    split("tests>bench tests>app app>run library>run python>run run>parallel run>io bench>parallel parallel>core io>core", folder_arrows, " ")
+    arrow_count = split("tests>bench tests>app app>run python>run run>parallel run>io bench>parallel parallel>core io>core", folder_arrows, " ")
 }
 
 {
@@ -53,15 +53,15 @@ END {
         top += head + band_rows[b] * (box_height + row_gap) + margin + 34
     }
     pitch = box_width + gap
-    total = 8 * pitch + 5 * margin
     for (f in band_of) {
-        left[f] = margin + column_of[f] * pitch + (f == "io" || f == "library" || f == "python" ? margin + (f == "python" ? margin : 0) : 0)
+        left[f] = margin + column_of[f] * pitch + (f == "io" ? margin : f == "python" ? 2 * margin : 0)
         frame_width[f] = width[f] * pitch - gap + 2 * margin
-        if (f == "core" || f == "tests") frame_width[f] = total - 2 * margin
         if (f == "run") frame_width[f] = 5 * pitch - gap + 2 * margin
+        if (left[f] + frame_width[f] + margin > total) total = left[f] + frame_width[f] + margin
         frame_top[f] = band_top[band_of[f]]
         frame_height[f] = head + height[f] * (box_height + row_gap) - row_gap + margin
     }
+    frame_width["core"] = frame_width["tests"] = total - 2 * margin
     printf "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" width=\"%d\" height=\"%d\" font-family=\"sans-serif\">\n", total, top - 20, total, top - 20
     print "<title>The rooms of Carom, and what includes what</title>"
     print "<style>"
@@ -80,7 +80,7 @@ END {
     print "<marker id=\"whole-head\" viewBox=\"0 0 8 8\" refX=\"8\" refY=\"4\" markerWidth=\"4\" markerHeight=\"4\" orient=\"auto\"><path class=\"whole-tip\" d=\"M0,0 L8,4 L0,8 z\"/></marker>"
     print "</defs>"
     printf "<rect class=\"page\" width=\"%d\" height=\"%d\"/>\n", total, top - 20
-    for (p = 1; p <= 10; p++) {
+    for (p = 1; p <= arrow_count; p++) {
         split(folder_arrows[p], ends, ">")
         a = ends[1]; b = ends[2]
         # Straight down, in the middle of the width that the two frames share.

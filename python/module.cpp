@@ -24,9 +24,9 @@
 #include "io/trajectory/scene_frame_reader.hpp"
 #include "io/trajectory/trajectory_reader.hpp"
 #include "python/interpreter_lock.hpp"
-#include "run/run_scene.hpp"
-#include "run/run_view.hpp"
-#include "run/simulation.hpp"
+#include "run/recordings/run_view.hpp"
+#include "run/scene/run_scene.hpp"
+#include "run/simulation/simulation.hpp"
 
 namespace py = pybind11;
 

@@ -13,7 +13,7 @@
 #include "core/load/method_choice.hpp"
 #include "core/scene/picture_look.hpp"
 #include "core/scene/scene_names.hpp"
-#include "run/make_engine.hpp"
+#include "run/engine/make_engine.hpp"
 
 namespace carom {
 

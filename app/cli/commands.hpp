@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "app/cli/command_line.hpp"
-#include "run/json_keys.hpp"
+#include "run/results/json_keys.hpp"
 
 namespace carom {
 

@@ -18,7 +18,7 @@
 #include "core/base/input_message.hpp"
 #include "core/base/kernel_set.hpp"
 #include "io/files/child_process.hpp"
-#include "run/make_engine.hpp"
+#include "run/engine/make_engine.hpp"
 
 namespace carom {
 

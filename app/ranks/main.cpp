@@ -10,8 +10,8 @@
 #include "core/base/float_environment.hpp"
 #include "parallel/ranks/mpi_ranks.hpp"
 #include "parallel/slabs/leading_engine.hpp"
-#include "run/make_engine.hpp"
-#include "run/stop_signals.hpp"
+#include "run/engine/make_engine.hpp"
+#include "run/loop/stop_signals.hpp"
 
 namespace carom {
 

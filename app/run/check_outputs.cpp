@@ -16,9 +16,9 @@
 #include "core/scene/size_law.hpp"
 #include "io/checkpoint/checkpoint.hpp"
 #include "io/files/checkpoint_names.hpp"
-#include "run/frame_schedule.hpp"
-#include "run/run_outputs.hpp"
-#include "run/run_view.hpp"
+#include "run/loop/frame_schedule.hpp"
+#include "run/outputs/run_outputs.hpp"
+#include "run/recordings/run_view.hpp"
 
 namespace carom {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/run/check_foresight.hpp"
-#include "run/make_engine.hpp"
+#include "run/engine/make_engine.hpp"
 
 namespace carom {
 

@@ -7,8 +7,8 @@
 
 #include "app/run/check_outputs.hpp"
 #include "core/scene/scene.hpp"
-#include "run/json_keys.hpp"
-#include "run/rank_foresight.hpp"
+#include "run/foresight/rank_foresight.hpp"
+#include "run/results/json_keys.hpp"
 
 namespace carom {
 

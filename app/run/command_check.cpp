@@ -18,8 +18,8 @@
 #include "core/measure/invariants.hpp"
 #include "core/start/initial_state.hpp"
 #include "core/step/validity.hpp"
-#include "run/make_engine.hpp"
-#include "run/run_outputs.hpp"
+#include "run/engine/make_engine.hpp"
+#include "run/outputs/run_outputs.hpp"
 
 namespace carom {
 

@@ -10,8 +10,8 @@
 #include "core/base/input_file.hpp"
 #include "core/scene/scene_text.hpp"
 #include "io/files/output_folder.hpp"
-#include "run/resume_checks.hpp"
-#include "run/stop_signals.hpp"
+#include "run/loop/stop_signals.hpp"
+#include "run/scene/resume_checks.hpp"
 
 namespace carom {
 

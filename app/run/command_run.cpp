@@ -12,7 +12,7 @@
 #include "io/files/checkpoint_names.hpp"
 #include "io/files/output_folder.hpp"
 #include "io/files/shell_word.hpp"
-#include "run/stop_signals.hpp"
+#include "run/loop/stop_signals.hpp"
 
 namespace carom {
 

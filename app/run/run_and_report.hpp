@@ -6,7 +6,7 @@
 
 #include "app/cli/command_line.hpp"
 #include "app/run/setup_watch.hpp"
-#include "run/run_scene.hpp"
+#include "run/scene/run_scene.hpp"
 
 namespace carom {
 

@@ -7,8 +7,8 @@
 #include <stop_token>
 
 #include "app/cli/messages.hpp"
-#include "run/checkpoint_keeper.hpp"
-#include "run/stop_signals.hpp"
+#include "run/loop/checkpoint_keeper.hpp"
+#include "run/loop/stop_signals.hpp"
 
 namespace carom {
 

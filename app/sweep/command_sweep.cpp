@@ -30,7 +30,7 @@
 #include "io/files/child_process.hpp"
 #include "io/files/output_file.hpp"
 #include "io/files/shell_word.hpp"
-#include "run/stop_signals.hpp"
+#include "run/loop/stop_signals.hpp"
 
 namespace carom {
 

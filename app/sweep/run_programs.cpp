@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "run/stop_signals.hpp"
+#include "run/loop/stop_signals.hpp"
 
 namespace carom {
 

@@ -14,7 +14,7 @@
 #include "io/files/output_folder.hpp"
 #include "io/movie/movie.hpp"
 #include "io/trajectory/trajectory_reader.hpp"
-#include "run/recording.hpp"
+#include "run/recordings/recording.hpp"
 
 namespace carom {
 

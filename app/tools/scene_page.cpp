@@ -7,7 +7,7 @@
 #include "core/scene/scene_keys.hpp"
 #include "core/scene/scene_ranges.hpp"
 #include "io/tables/series.hpp"
-#include "run/summary.hpp"
+#include "run/results/summary.hpp"
 
 namespace carom {
 

@@ -7,7 +7,7 @@
 #include "app/view/live_view.hpp"
 #include "app/view/open_page.hpp"
 #include "core/base/short_number.hpp"
-#include "run/run_view.hpp"
+#include "run/recordings/run_view.hpp"
 
 namespace carom {
 

@@ -10,7 +10,7 @@
 
 #include "app/view/loopback_server.hpp"
 #include "io/view/view_encoder.hpp"
-#include "run/run_view.hpp"
+#include "run/recordings/run_view.hpp"
 
 namespace carom {
 

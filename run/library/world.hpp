@@ -14,7 +14,7 @@
 #include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
 #include "core/base/short_number.hpp"
-#include "run/simulation.hpp"
+#include "run/simulation/simulation.hpp"
 
 // The text of an error is no part of the world, and a call that only looks may set it.
 struct carom_world {

@@ -15,8 +15,8 @@
 #include "io/checkpoint/checkpoint.hpp"
 #include "parallel/simulation.hpp"
 #include "parallel/start/random_placement.hpp"
-#include "run/frame_schedule.hpp"
-#include "run/run_loop.hpp"
+#include "run/loop/frame_schedule.hpp"
+#include "run/loop/run_loop.hpp"
 #include "tests/fuzz_scenes/sanity.hpp"
 #include "tests/fuzz_scenes/trace.hpp"
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/load/scene_file.hpp"
-#include "run/simulation.hpp"
+#include "run/simulation/simulation.hpp"
 #include "tests/support/library_scene.hpp"
 #include "tests/support/test_folder.hpp"
 

@@ -17,7 +17,7 @@
 #include <thread>
 #include <vector>
 
-#include "run/simulation.hpp"
+#include "run/simulation/simulation.hpp"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/load/scene_file.hpp"
-#include "run/simulation.hpp"
+#include "run/simulation/simulation.hpp"
 
 namespace carom {
 namespace {

@@ -1,5 +1,5 @@
 // Queries against all disks and all their images.
-#include "run/disk_queries.hpp"
+#include "run/simulation/disk_queries.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 
 #include "core/base/check.hpp"
 #include "core/load/scene_file.hpp"
-#include "run/simulation.hpp"
+#include "run/simulation/simulation.hpp"
 #include "tests/support/draws.hpp"
 
 namespace carom {

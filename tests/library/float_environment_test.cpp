@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "parallel/threads/executor.hpp"
-#include "run/run_scene.hpp"
-#include "run/simulation.hpp"
+#include "run/scene/run_scene.hpp"
+#include "run/simulation/simulation.hpp"
 #include "tests/support/simulation_support.hpp"
 
 namespace carom {

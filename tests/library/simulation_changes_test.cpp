@@ -11,7 +11,7 @@
 #include "core/disks/domain.hpp"
 #include "core/measure/invariants.hpp"
 #include "core/step/edit.hpp"
-#include "run/simulation.hpp"
+#include "run/simulation/simulation.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/simulation_support.hpp"
 

@@ -1,5 +1,5 @@
 // carom::Simulation: the bits of a run however it is stepped, saved and looked at.
-#include "run/simulation.hpp"
+#include "run/simulation/simulation.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,8 +14,8 @@
 
 #include "core/base/check.hpp"
 #include "core/disks/state_hash.hpp"
-#include "run/disk_maps.hpp"
-#include "run/run_scene.hpp"
+#include "run/scene/run_scene.hpp"
+#include "run/simulation/disk_maps.hpp"
 #include "tests/support/simulation_support.hpp"
 #include "tests/support/test_folder.hpp"
 

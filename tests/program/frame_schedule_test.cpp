@@ -1,5 +1,5 @@
 // When frames are due: at 0, at every multiple of an interval, and at the end, whatever the steps between.
-#include "run/frame_schedule.hpp"
+#include "run/loop/frame_schedule.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // The pressure of a summary, by hand: of which room and of which energy of motion it is.
-#include "run/summary.hpp"
+#include "run/results/summary.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/load/scene_file.hpp"
-#include "run/make_engine.hpp"
+#include "run/engine/make_engine.hpp"
 
 namespace carom::test {
 

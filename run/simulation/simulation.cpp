@@ -1,4 +1,4 @@
-#include "run/simulation.hpp"
+#include "run/simulation/simulation.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "run/run_files.hpp"
+#include "run/scene/run_files.hpp"
 
 #include <fmt/format.h>
 

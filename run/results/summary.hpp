@@ -7,8 +7,8 @@
 
 #include "core/measure/state_sums.hpp"
 #include "parallel/slabs/rank_report.hpp"
-#include "run/json_keys.hpp"
-#include "run/make_engine.hpp"
+#include "run/engine/make_engine.hpp"
+#include "run/results/json_keys.hpp"
 
 namespace carom {
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "io/view/view_maker.hpp"
-#include "run/make_engine.hpp"
-#include "run/recording.hpp"
+#include "run/engine/make_engine.hpp"
+#include "run/recordings/recording.hpp"
 
 namespace carom {
 

@@ -1,4 +1,4 @@
-#include "run/run_outputs.hpp"
+#include "run/outputs/run_outputs.hpp"
 
 #include <fmt/format.h>
 

@@ -15,7 +15,7 @@
 #include "io/tables/series.hpp"
 #include "io/trajectory/trajectory_h5md.hpp"
 #include "io/trajectory/trajectory_xyz.hpp"
-#include "run/running_analysis.hpp"
+#include "run/outputs/running_analysis.hpp"
 
 namespace carom {
 

@@ -1,4 +1,4 @@
-#include "run/make_engine.hpp"
+#include "run/engine/make_engine.hpp"
 
 #include <fmt/format.h>
 

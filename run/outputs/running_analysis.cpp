@@ -1,4 +1,4 @@
-#include "run/running_analysis.hpp"
+#include "run/outputs/running_analysis.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

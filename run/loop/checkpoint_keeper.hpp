@@ -7,7 +7,7 @@
 #include "core/base/wall_clock.hpp"
 #include "io/checkpoint/checkpoint.hpp"
 #include "io/files/output_folder.hpp"
-#include "run/run_outputs.hpp"
+#include "run/outputs/run_outputs.hpp"
 
 namespace carom {
 

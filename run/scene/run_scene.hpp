@@ -13,8 +13,8 @@
 #include "core/scene/scene.hpp"
 #include "core/start/growth.hpp"
 #include "io/checkpoint/checkpoint_place.hpp"
-#include "run/make_engine.hpp"
-#include "run/summary.hpp"
+#include "run/engine/make_engine.hpp"
+#include "run/results/summary.hpp"
 
 namespace carom {
 

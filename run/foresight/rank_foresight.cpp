@@ -1,4 +1,4 @@
-#include "run/rank_foresight.hpp"
+#include "run/foresight/rank_foresight.hpp"
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@
 #include "parallel/slabs/slab_orders.hpp"
 #include "parallel/slabs/slab_start.hpp"
 #include "parallel/slabs/start_on_slabs.hpp"
-#include "run/run_outputs.hpp"
+#include "run/outputs/run_outputs.hpp"
 
 namespace carom {
 

@@ -1,4 +1,4 @@
-#include "run/frame_schedule.hpp"
+#include "run/loop/frame_schedule.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "run/stop_signals.hpp"
+#include "run/loop/stop_signals.hpp"
 
 #include <atomic>
 #include <csignal>

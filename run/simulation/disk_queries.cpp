@@ -1,4 +1,4 @@
-#include "run/disk_queries.hpp"
+#include "run/simulation/disk_queries.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "run/run_view.hpp"
+#include "run/recordings/run_view.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "run/run_scene.hpp"
+#include "run/scene/run_scene.hpp"
 
 #include <fmt/format.h>
 
@@ -16,11 +16,11 @@
 #include "io/files/checkpoint_names.hpp"
 #include "io/files/output_file.hpp"
 #include "io/files/shell_word.hpp"
-#include "run/checkpoint_keeper.hpp"
-#include "run/run_files.hpp"
-#include "run/run_loop.hpp"
-#include "run/run_view.hpp"
-#include "run/strict_engine.hpp"
+#include "run/engine/strict_engine.hpp"
+#include "run/loop/checkpoint_keeper.hpp"
+#include "run/loop/run_loop.hpp"
+#include "run/recordings/run_view.hpp"
+#include "run/scene/run_files.hpp"
 
 namespace carom {
 

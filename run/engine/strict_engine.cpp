@@ -1,4 +1,4 @@
-#include "run/strict_engine.hpp"
+#include "run/engine/strict_engine.hpp"
 
 #include <utility>
 

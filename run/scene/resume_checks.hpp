@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "run/run_scene.hpp"
+#include "run/scene/run_scene.hpp"
 
 namespace carom {
 

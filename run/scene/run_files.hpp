@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "io/files/output_folder.hpp"
-#include "run/run_outputs.hpp"
-#include "run/run_scene.hpp"
+#include "run/outputs/run_outputs.hpp"
+#include "run/scene/run_scene.hpp"
 
 namespace carom {
 

@@ -1,4 +1,4 @@
-#include "run/summary.hpp"
+#include "run/results/summary.hpp"
 
 #include <fmt/format.h>
 

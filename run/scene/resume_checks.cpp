@@ -1,4 +1,4 @@
-#include "run/resume_checks.hpp"
+#include "run/scene/resume_checks.hpp"
 
 #include <fmt/format.h>
 

@@ -17,9 +17,9 @@
 #include "core/step/edit.hpp"
 #include "core/step/engine.hpp"
 #include "io/checkpoint/checkpoint.hpp"
-#include "run/disk_queries.hpp"
-#include "run/make_engine.hpp"
-#include "run/summary.hpp"
+#include "run/engine/make_engine.hpp"
+#include "run/results/summary.hpp"
+#include "run/simulation/disk_queries.hpp"
 
 namespace carom {
 

@@ -1,4 +1,4 @@
-#include "run/run_loop.hpp"
+#include "run/loop/run_loop.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "core/base/wall_clock.hpp"
-#include "run/frame_schedule.hpp"
+#include "run/loop/frame_schedule.hpp"
 
 namespace carom {
 

@@ -1,4 +1,4 @@
-#include "run/recording.hpp"
+#include "run/recordings/recording.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "run/checkpoint_keeper.hpp"
+#include "run/loop/checkpoint_keeper.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 
 #include "io/checkpoint/checkpoint_place.hpp"
 #include "io/files/shell_word.hpp"
-#include "run/stop_signals.hpp"
+#include "run/loop/stop_signals.hpp"
 
 namespace carom {
 
