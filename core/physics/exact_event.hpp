@@ -75,15 +75,15 @@ struct NoRubbing {
 // with the change that collide() returned. gravity: may g be other than 0?
 // wraps: false where it is known that both, and the way between them, cross no border along a period.
 template <bool gravity, bool wraps = true, class RestitutionOf, class Rub = NoRubbing>
-[[gnu::always_inline]] inline Impact collide_paths(const Domain& box, const Gravity& g, double s, Shares share,
-                                                   double reduced_mass, const RestitutionOf& restitution,
-                                                   PathSegment& p, PathSegment& q, const Rub& rub = {}) {
+[[gnu::always_inline]] inline PairImpact collide_paths(const Domain& box, const Gravity& g, double s, Shares share,
+                                                       double reduced_mass, const RestitutionOf& restitution,
+                                                       PathSegment& p, PathSegment& q, const Rub& rub = {}) {
   const bool begin_now = both_begin_at(s, p, q);
   drift<gravity>(p.x, p.y, p.vx, p.vy, s - p.start, g);
   drift<gravity>(q.x, q.y, q.vx, q.vy, s - q.start, g);
   p.start = q.start = s;
   const Relative r = wraps ? relative(p, q, box) : Relative{q.x - p.x, q.y - p.y, q.vx - p.vx, q.vy - p.vy};
-  Impact outcome;
+  PairImpact outcome;
   if (r.approach() < 0.0 && r.distance2() > 0.0) {
     const double e = restitution(r);
     const double change = collide(r, share, e, p.vx, p.vy, q.vx, q.vy);
@@ -101,14 +101,14 @@ template <bool gravity, bool wraps = true, class RestitutionOf, class Rub = NoRu
 
 // The same in a sheared box, of disks with these masses. rough: may rub do anything?
 template <class RestitutionOf, class Rub>
-[[gnu::noinline, gnu::cold]] Impact collide_sheared(const Domain& box, double s, double mass_p, double mass_q,
-                                                    const RestitutionOf& restitution, bool rough, const Rub& rub,
-                                                    PathSegment& p, PathSegment& q) {
+[[gnu::noinline, gnu::cold]] PairImpact collide_sheared(const Domain& box, double s, double mass_p, double mass_q,
+                                                        const RestitutionOf& restitution, bool rough, const Rub& rub,
+                                                        PathSegment& p, PathSegment& q) {
   const bool begin_now = both_begin_at(s, p, q);
   p = carried_to(p, s, 0.0);
   q = carried_to(q, s, 0.0);
   const Relative r = relative_in_shear(p, q, box);
-  Impact outcome;
+  PairImpact outcome;
   if (r.approach() < 0.0 && r.distance2() > 0.0) {
     const double e = restitution(r);
     const double before = q.vx;
@@ -119,8 +119,8 @@ template <class RestitutionOf, class Rub>
     outcome = {.virial = reduced_mass(mass_p, mass_q) * change, .happened = true, .lost_energy = e < 1.0};
     see_shear(outcome, r, rows_to_nearest(q.y - p.y, box), mass_q * (q.vx - before), rough, box.shear);
   }
-  outcome.energy += wrap_with_work(p, mass_p, box);
-  outcome.energy += wrap_with_work(q, mass_q, box);
+  outcome.shear_work += wrap_with_work(p, mass_p, box);
+  outcome.shear_work += wrap_with_work(q, mass_q, box);
   return outcome;
 }
 
@@ -143,7 +143,7 @@ inline PairRestitution restitution_of_pair(const ExactRules& rules, double s, Di
 }
 
 // Disks a and b, the one with the smaller id first, collide at time s; their new segments start there.
-inline Impact collide_at(const ExactRules& rules, double s, ExactDisk& a, ExactDisk& b) {
+inline PairImpact collide_at(const ExactRules& rules, double s, ExactDisk& a, ExactDisk& b) {
   const Shares share = rules.common_mass ? equal_shares : shares(a.mass, b.mass);
   PairRestitution pair{.value = rules.restitution, .elastic = false, .held = false};
   const auto restitution = [&](const Relative& r) {
@@ -154,7 +154,7 @@ inline Impact collide_at(const ExactRules& rules, double s, ExactDisk& a, ExactD
     if (rules.surfaces == nullptr || pair.elastic) return;
     rub_disks(*rules.surfaces, r, share, change, rough_disk(a), rough_disk(b));
   };
-  Impact outcome =
+  PairImpact outcome =
       rules.box.shear.acts()
           ? collide_sheared(rules.box, s, a.mass, b.mass, restitution, rules.surfaces != nullptr, rub, a.path, b.path)
           : collide_paths<true>(rules.box, rules.gravity, s, share, reduced_mass(a.mass, b.mass), restitution, a.path,
@@ -175,10 +175,10 @@ inline Impact collide_at(const ExactRules& rules, double s, ExactDisk& a, ExactD
 inline constexpr double least_hop = 0.25;
 
 // Disk a is at a thermal side at time s.
-inline Impact meet_thermal_side(const ExactRules& rules, double s, Side side, ExactDisk& a) {
+inline WallImpact meet_thermal_side(const ExactRules& rules, double s, Side side, ExactDisk& a) {
   PathSegment& p = a.path;
   const double before = outward_speed(side, p.vx, p.vy);
-  Impact outcome{.happened = true};
+  WallImpact outcome{.happened = true};
   if (before > 0.0) {
     const double temperature = rules.box.temperature(side);
     const ThermalReflection reflected =
@@ -188,7 +188,7 @@ inline Impact meet_thermal_side(const ExactRules& rules, double s, Side side, Ex
       outcome.energy +=
           spin_thermally(rules.surfaces->inertia, temperature, a.mass, a.radius, reflected.deviate, a.spin);
     }
-    outcome.virial = a.mass * (before - outward_speed(side, p.vx, p.vy));
+    outcome.impulse = a.mass * (before - outward_speed(side, p.vx, p.vy));
   }
   a.last_contact = s;
   return outcome;
@@ -196,14 +196,14 @@ inline Impact meet_thermal_side(const ExactRules& rules, double s, Side side, Ex
 
 // Disk a is at a moving side at time s. Under the TC model it leaves a side that accelerates towards it with a hop, as
 // it does from the floor.
-inline Impact meet_moving_side(const ExactRules& rules, double s, Side side, ExactDisk& a) {
+inline WallImpact meet_moving_side(const ExactRules& rules, double s, Side side, ExactDisk& a) {
   PathSegment& p = a.path;
   const SidePlace place = rules.box.place_after(side, s);
   const bool elastic = made_elastic(rules, s, a.last_contact);
   const double e = elastic ? 1.0 : rules.box.restitution(side);
   const double approach = approach_speed(side, p.vx, p.vy, place);
   const bool loses = rules.box.restitution(side) < 1.0 || rubs_away(rules, Touching::wall);
-  Impact outcome{.happened = true, .inaccurate = elastic && loses, .lost_energy = !elastic && loses};
+  WallImpact outcome{.happened = true, .inaccurate = elastic && loses, .lost_energy = !elastic && loses};
   const double leaving = approach > 0.0 ? e * approach : -approach;
   const double hop =
       rules.tc() ? least_hop * approach_acceleration(side, rules.gravity, place) * rules.contact_time : 0.0;
@@ -211,8 +211,8 @@ inline Impact meet_moving_side(const ExactRules& rules, double s, Side side, Exa
   if (approach > 0.0 || away > leaving) {
     const double kick = rebound(side, place, approach, away, p.vx, p.vy);
     if (!elastic && approach > 0.0) rub_against(rules, inward_normal(side), Touching::wall, kick, a);
-    outcome.virial = a.mass * kick;
-    outcome.energy = outcome.virial * place.speed;
+    outcome.impulse = a.mass * kick;
+    outcome.energy = outcome.impulse * place.speed;
   }
   a.last_contact = s;
   return outcome;
@@ -225,10 +225,10 @@ inline void hop_off(Side side, double least, PathSegment& p) {
 
 // Disk a reaches a side at time s: it bounces off a wall or crosses a periodic side. The caller removes what a sink
 // takes.
-inline Impact meet_side_at(const ExactRules& rules, double s, Side side, ExactDisk& a) {
+inline WallImpact meet_side_at(const ExactRules& rules, double s, Side side, ExactDisk& a) {
   PathSegment& p = a.path;
   p = carried_to(p, s, rules.gravity);
-  Impact outcome;
+  WallImpact outcome;
   if (rules.box.is_thermal(side)) {
     outcome = meet_thermal_side(rules, s, side, a);
   } else if (rules.box.moves(side)) {
@@ -243,7 +243,7 @@ inline Impact meet_side_at(const ExactRules& rules, double s, Side side, ExactDi
     }
     if (rules.tc()) hop_off(side, least_hop * outward_acceleration(side, rules.gravity) * rules.contact_time, p);
     const bool loses = rules.box.restitution(side) < 1.0 || rubs_away(rules, Touching::wall);
-    outcome = {.virial = a.mass * std::max(0.0, before - outward_speed(side, p.vx, p.vy)),
+    outcome = {.impulse = a.mass * std::max(0.0, before - outward_speed(side, p.vx, p.vy)),
                .happened = true,
                .inaccurate = elastic && loses,
                .lost_energy = !elastic && loses};
@@ -259,14 +259,14 @@ inline Impact meet_side_at(const ExactRules& rules, double s, Side side, ExactDi
 
 // Disk a touches an obstacle at time s: it bounces along the shortest line to it. Under the TC model it hops as from
 // the floor, in proportion to the part of gravity g that presses it against the obstacle.
-inline Impact bounce_off_obstacle(const ExactRules& rules, double s, const Obstacle& o, const ShortestLine& shortest,
-                                  const Gravity& g, ExactDisk& a) {
+inline WallImpact bounce_off_obstacle(const ExactRules& rules, double s, const Obstacle& o,
+                                      const ShortestLine& shortest, const Gravity& g, ExactDisk& a) {
   PathSegment& p = a.path;
   const Vec2 apart = shortest.line;
   const double distance2 = shortest.length2;
   const double approach = apart.x * p.vx + apart.y * p.vy;
   const double distance = std::sqrt(distance2);
-  Impact outcome;
+  WallImpact outcome;
   if (distance > 0.0) {
     double own = o.restitution;
     bool elastic = false;
@@ -287,7 +287,7 @@ inline Impact bounce_off_obstacle(const ExactRules& rules, double s, const Obsta
     if (!elastic && approach < 0.0) {
       rub_against(rules, {apart.x / distance, apart.y / distance}, o.touching(), change / distance, a);
     }
-    outcome = {.virial = a.mass * (change / distance),
+    outcome = {.impulse = a.mass * (change / distance),
                .happened = bounced,
                .inaccurate = elastic && loses,
                .lost_energy = bounced && !elastic && loses};
@@ -297,8 +297,8 @@ inline Impact bounce_off_obstacle(const ExactRules& rules, double s, const Obsta
 }
 
 // The same of a wall that moves, in its frame.
-[[gnu::noinline, gnu::cold]] inline Impact bounce_off_moving_wall(const ExactRules& rules, double s, const Obstacle& o,
-                                                                  ExactDisk& a) {
+[[gnu::noinline, gnu::cold]] inline WallImpact bounce_off_moving_wall(const ExactRules& rules, double s,
+                                                                      const Obstacle& o, ExactDisk& a) {
   PathSegment& p = a.path;
   const PlacedObstacle now = placed(o, rules.box, s);
   const Vec2 wall = now.place.velocity;
@@ -307,7 +307,7 @@ inline Impact bounce_off_obstacle(const ExactRules& rules, double s, const Obsta
   p.vx -= wall.x;
   p.vy -= wall.y;
   const ShortestLine shortest = shortest_line_wound(now.obstacle, p.x, p.y, rules.box);
-  Impact impact = bounce_off_obstacle(rules, s, now.obstacle, shortest, felt, a);
+  WallImpact impact = bounce_off_obstacle(rules, s, now.obstacle, shortest, felt, a);
   if (!impact.happened) {
     p.vx = before.x;
     p.vy = before.y;
@@ -331,13 +331,13 @@ inline Impact bounce_off_obstacle(const ExactRules& rules, double s, const Obsta
 }
 
 // Disk a touches obstacle k (its place in State::obstacles) at time s. The caller removes what a sink takes.
-inline Impact meet_obstacle_at(const ExactRules& rules, double s, std::uint32_t k, ExactDisk& a) {
+inline WallImpact meet_obstacle_at(const ExactRules& rules, double s, std::uint32_t k, ExactDisk& a) {
   PathSegment& p = a.path;
   const bool begins_now = !(s > p.start);
   p = carried_to(p, s, rules.gravity);
   const Obstacle& o = (*rules.box.obstacles)[k];
   if (o.kind == ObstacleKind::sink) return {};
-  const Impact outcome =
+  const WallImpact outcome =
       o.moves ? bounce_off_moving_wall(rules, s, o, a)
               : bounce_off_obstacle(rules, s, o, shortest_line(o, p.x, p.y, rules.box), rules.gravity, a);
   if (begins_now && outcome.happened) [[unlikely]]

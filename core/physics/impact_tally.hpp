@@ -19,49 +19,54 @@ struct ImpactTally {
   Count collisions = 0;
   Count wall_collisions = 0;        // with obstacles too; their impulses are no force on a side
   Count loads = 0, wall_loads = 0;  // supports that bore (resting.hpp): their impulses count, as collisions they do not
-  Count inaccurate = 0;             // of `collisions`, see Impact
+  Count inaccurate = 0;             // of `collisions`, see PairImpact
   Count inaccurate_at_walls = 0;    // of `wall_collisions`
   ExactSum virial;
   std::array<ExactSum, 4> wall_impulse;
   std::vector<ExactSum> side_energy;  // that each side gave; empty where none did
   std::vector<ExactSum> pushes;   // of inner walls that move: work, momentum along x and y; empty where none did any
-  std::vector<ExactSum> shear;    // in a sheared box: of Impact::shear, and the work done; else empty
+  std::vector<ExactSum> shear;    // in a sheared box: PairImpact::shear_virial, and the work done; else empty
   std::vector<ExactSum> absence;  // one: of each disk that a sink took, the rest of the window; empty where none did
 
   // partner: the second disk's id, or a wall_partner.
   void add(DiskId partner, const Impact& impact) {
-    if (!is_wall(partner)) return add_pair(impact);
-    if (!impact.happened) return add_crossing(impact);
+    if (const auto* const pair = std::get_if<PairImpact>(&impact)) return add_pair(*pair);
+    add_wall(partner, std::get<WallImpact>(impact));
+  }
+
+  // Of a disk and a side or an obstacle.
+  void add_wall(DiskId partner, const WallImpact& impact) {
+    if (!impact.happened) return add_crossing(impact.energy);
     inaccurate_at_walls += impact.inaccurate ? 1 : 0;
     ++wall_collisions;
     if (is_obstacle(partner)) {
       if (impact.pushed) [[unlikely]]
-        add_push(impact.energy, impact.virial, impact.shear);
+        add_push(impact.energy, impact.momentum.x, impact.momentum.y);
       return;
     }
-    wall_impulse[static_cast<std::size_t>(wall_side(partner))].add(impact.virial);
+    wall_impulse[static_cast<std::size_t>(wall_side(partner))].add(impact.impulse);
     if (impact.energy != 0.0) add_energy(wall_side(partner), impact.energy);
   }
 
   // Of two disks. may_shear: may the box be sheared?
   template <bool may_shear = true>
-  void add_pair(const Impact& impact) {
+  void add_pair(const PairImpact& impact) {
     if constexpr (!may_shear) {
       if (!impact.happened) return;
     } else if (!impact.happened) {
-      return add_crossing(impact);
+      return add_crossing(impact.shear_work);
     }
     inaccurate += impact.inaccurate ? 1 : 0;
     add_collision(impact.virial);
     if constexpr (may_shear) {
-      if (impact.sheared) add_shear(impact.shear, impact.energy);
+      if (impact.sheared) add_shear(impact.shear_virial, impact.shear_work);
     }
   }
 
   // No collision, but disks may have crossed the bottom or the top of a sheared box.
-  void add_crossing(const Impact& impact) {
-    if (impact.energy != 0.0) [[unlikely]]
-      add_shear(0.0, impact.energy);
+  void add_crossing(double work) {
+    if (work != 0.0) [[unlikely]]
+      add_shear(0.0, work);
   }
 
   void add_shear(double its_virial, double work) {

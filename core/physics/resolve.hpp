@@ -27,16 +27,17 @@ namespace carom {
 // of the image that collided. momentum: along x, what the second disk gained. The image has that much more energy than
 // the disk itself. The stress is momentum along x that goes along y; rough disks, whose impulse is not along the line
 // of centres, may hand on another amount along y over their distance along x, which does no work.
-inline void see_shear(Impact& impact, const Relative& r, int rows, double momentum, bool rough, const Shear& shear) {
+inline void see_shear(PairImpact& impact, const Relative& r, int rows, double momentum, bool rough,
+                      const Shear& shear) {
   impact.sheared = true;
-  impact.shear = rough ? r.dy * momentum : impact.virial * (r.dx * r.dy / r.distance2());
-  if (rows != 0) impact.energy -= (rows > 0 ? shear.jump : -shear.jump) * momentum;
+  impact.shear_virial = rough ? r.dy * momentum : impact.virial * (r.dx * r.dy / r.distance2());
+  if (rows != 0) impact.shear_work -= (rows > 0 ? shear.jump : -shear.jump) * momentum;
 }
 
 // Disks i and j have just collided as r says; before: velocity along x of disk j until then.
 template <class View>
 void see_shear_of(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t j, const Relative& r,
-                  double before, Impact& impact) {
+                  double before, PairImpact& impact) {
   if constexpr (View::is_sheared) {
     see_shear(impact, r, rows_to_nearest(d.y[j] - d.y[i], rules.box), d.mass(j) * (d.vx[j] - before),
               rules.surfaces != nullptr, rules.box.shear);
@@ -86,7 +87,7 @@ void drift_one(const View& d, std::uint32_t i, double t, const Gravity& g) {
 // contact was found: a pair that no longer overlaps or approaches is left alone (F3, F8). A contact older than the step
 // (an overlap left from before) collides where it is.
 template <class View>
-Impact resolve_pair(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t j) {
+PairImpact resolve_pair(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t j) {
   Relative r = relative(d, i, j, rules.box);
   const double contact_distance = d.radius(i) + d.radius(j);
   if (!touches(r.distance2(), contact_distance) || !(r.approach() < 0.0)) return {};
@@ -98,7 +99,7 @@ Impact resolve_pair(const View& d, const StepRules& rules, std::uint32_t i, std:
     drift_one(d, j, -ago, rules.gravity);
     r = relative(d, i, j, rules.box, ago);
   }
-  Impact impact;
+  PairImpact impact;
   if (r.distance2() > 0.0 && r.approach() < 0.0) {
     const Shares share = shares_of(d, i, j);
     const double e = pair_restitution(d, rules, i, j, r);
@@ -135,7 +136,7 @@ double bounce_at_wall(const View& d, const StepRules& rules, std::uint32_t i, Si
 
 // Disk i is reflected by a thermal side where it is.
 template <class View>
-Impact reflect_at_side(const View& d, const StepRules& rules, std::uint32_t i, Side side) {
+WallImpact reflect_at_side(const View& d, const StepRules& rules, std::uint32_t i, Side side) {
   const double before = outward_speed(side, d.vx[i], d.vy[i]);
   const DiskId id = d.id[i];
   const ThermalReflection reflected = reflect_thermally(side, rules.box.temperature(side), d.mass(i),
@@ -147,17 +148,17 @@ Impact reflect_at_side(const View& d, const StepRules& rules, std::uint32_t i, S
                              reflected.deviate, d.spin[i]);
     }
   }
-  return {.virial = d.mass(i) * (before - outward_speed(side, d.vx[i], d.vy[i])), .energy = heat, .happened = true};
+  return {.impulse = d.mass(i) * (before - outward_speed(side, d.vx[i], d.vy[i])), .energy = heat, .happened = true};
 }
 
 // A disk that reaches beyond a thermal side and moves into it, at speed `speed`: reflected once, at its contact, or at
 // the side where that is older than the step. Where gravity brings it back within the step, it stays at the side.
 template <class View>
-Impact resolve_thermal_wall(const View& d, const StepRules& rules, std::uint32_t i, Side side, double beyond,
-                            double speed) {
+WallImpact resolve_thermal_wall(const View& d, const StepRules& rules, std::uint32_t i, Side side, double beyond,
+                                double speed) {
   const double ago = time_since_wall(side, beyond, speed, rules.gravity);
   const bool inside_step = began_within(ago, rules.dt);
-  Impact impact;
+  WallImpact impact;
   if (inside_step) drift_one(d, i, -ago, rules.gravity);
   if (outward_speed(side, d.vx[i], d.vy[i]) > 0.0) impact = reflect_at_side(d, rules, i, side);
   impact.inaccurate = is_met_late(ago, beyond, speed, rules.dt);
@@ -171,7 +172,7 @@ Impact resolve_thermal_wall(const View& d, const StepRules& rules, std::uint32_t
 
 // Likewise for a side that moves, in its frame: back to the contact, and off the side.
 template <class View>
-Impact resolve_moving_wall(const View& d, const StepRules& rules, std::uint32_t i, Side side) {
+WallImpact resolve_moving_wall(const View& d, const StepRules& rules, std::uint32_t i, Side side) {
   const SidePlace& place = rules.box.place(side);
   const double r = d.radius(i);
   const double restitution = rules.box.restitution(side);
@@ -198,14 +199,14 @@ Impact resolve_moving_wall(const View& d, const StepRules& rules, std::uint32_t 
     bounce_off(speed(), away);
   }
   const double impulse = d.mass(i) * change;
-  return {.virial = impulse, .energy = impulse * place.speed, .happened = change > 0.0, .inaccurate = late};
+  return {.impulse = impulse, .energy = impulse * place.speed, .happened = change > 0.0, .inaccurate = late};
 }
 
 // Likewise for a disk and a wall (F11: position and velocity are both put right). A disk that gravity brings back to
 // the wall within the step, and one whose contact is older than the step, bounces at the step's end with the speed that
 // its energy allows: so a disk at rest on the floor stays at rest, and the lift gives it no energy.
 template <class View>
-Impact resolve_wall(const View& d, const StepRules& rules, std::uint32_t i, Side side) {
+WallImpact resolve_wall(const View& d, const StepRules& rules, std::uint32_t i, Side side) {
   if (rules.box.moves(side)) return resolve_moving_wall(d, rules, i, side);
   const auto beyond = [&] { return reach_beyond(side, d.x[i], d.y[i], d.radius(i), rules.box); };
   const auto speed = [&] { return outward_speed(side, d.vx[i], d.vy[i]); };
@@ -225,7 +226,7 @@ Impact resolve_wall(const View& d, const StepRules& rules, std::uint32_t i, Side
     drift_one(d, i, ago, rules.gravity);
   }
   if (beyond() >= 0.0 && speed() > 0.0) change += bounce_at_wall(d, rules, i, side);
-  return {.virial = d.mass(i) * change, .happened = change > 0.0, .inaccurate = late};
+  return {.impulse = d.mass(i) * change, .happened = change > 0.0, .inaccurate = late};
 }
 
 // Gives disk i the speed `change` more away from an obstacle.
@@ -253,7 +254,7 @@ double bounce_at_obstacle(const View& d, const StepRules& rules, std::uint32_t i
 
 // Likewise for a disk and an obstacle at rest.
 template <class View>
-Impact resolve_resting_obstacle(const View& d, const StepRules& rules, std::uint32_t i, const Obstacle& o) {
+WallImpact resolve_resting_obstacle(const View& d, const StepRules& rules, std::uint32_t i, const Obstacle& o) {
   const auto gap_now = [&] { return gap_to(o, d.x[i], d.y[i], d.radius(i), rules.box); };
   const auto speed = [&](const ObstacleGap& gap) { return speed_towards(gap, d.vx[i], d.vy[i]); };
   ObstacleGap gap = gap_now();
@@ -274,13 +275,13 @@ Impact resolve_resting_obstacle(const View& d, const StepRules& rules, std::uint
     gap = gap_now();
   }
   if (gap.beyond >= 0.0 && speed(gap) > 0.0) change += bounce_at_obstacle(d, rules, i, o);
-  return {.virial = d.mass(i) * change, .happened = change > 0.0, .inaccurate = late};
+  return {.impulse = d.mass(i) * change, .happened = change > 0.0, .inaccurate = late};
 }
 
 // Likewise for an inner wall that moves, in its frame: there it rests where it is at the end of the step.
 template <class View>
-[[gnu::noinline, gnu::cold]] Impact resolve_moving_wall(const View& d, const StepRules& rules, std::uint32_t i,
-                                                        const Obstacle& o) {
+[[gnu::noinline, gnu::cold]] WallImpact resolve_moving_wall(const View& d, const StepRules& rules, std::uint32_t i,
+                                                            const Obstacle& o) {
   PlacedObstacle now = placed(o, rules.box);
   const Vec2 wound = whole_periods({d.x[i] - now.obstacle.x, d.y[i] - now.obstacle.y}, rules.box);
   now.obstacle.x += wound.x;
@@ -289,7 +290,7 @@ template <class View>
   const Vec2 before{d.vx[i], d.vy[i]};
   d.vx[i] -= wall.x;
   d.vy[i] -= wall.y;
-  Impact impact = resolve_resting_obstacle(d, rules, i, now.obstacle);
+  WallImpact impact = resolve_resting_obstacle(d, rules, i, now.obstacle);
   if (!impact.happened) {
     d.vx[i] = before.x;
     d.vy[i] = before.y;
@@ -302,7 +303,7 @@ template <class View>
 }
 
 template <class View>
-Impact resolve_obstacle(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t k) {
+WallImpact resolve_obstacle(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t k) {
   const Obstacle& o = (*rules.box.obstacles)[k];
   if (o.moves) [[unlikely]]
     return resolve_moving_wall(d, rules, i, o);
@@ -310,10 +311,15 @@ Impact resolve_obstacle(const View& d, const StepRules& rules, std::uint32_t i, 
 }
 
 template <class View>
-Impact resolve_event(const View& d, const StepRules& rules, const ContactEvent& e) {
-  if (!is_wall(e.id2)) return resolve_pair(d, rules, e.i1, e.i2);
+WallImpact resolve_wall_event(const View& d, const StepRules& rules, const ContactEvent& e) {
   if (is_obstacle(e.id2)) return resolve_obstacle(d, rules, e.i1, obstacle_of(e.id2));
   return resolve_wall(d, rules, e.i1, wall_side(e.id2));
+}
+
+template <class View>
+Impact resolve_event(const View& d, const StepRules& rules, const ContactEvent& e) {
+  if (is_wall(e.id2)) return resolve_wall_event(d, rules, e);
+  return resolve_pair(d, rules, e.i1, e.i2);
 }
 
 // One pass over the contacts in order of time; then passes over the crowded ones, those of disks that have another

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <variant>
 
 #include "core/base/types.hpp"
 #include "core/disks/domain.hpp"
@@ -25,25 +26,42 @@ struct StepRules {
   const Surfaces* surfaces = nullptr;   // where disks are rough
 };
 
-// What became of one contact event.
-struct Impact {
-  double virial = 0.0;  // |impulse| x distance of a disk pair, |impulse| of a wall; mass length^2 / time or m l / t
-  double energy = 0.0;  // that a thermal side, a wall that moves or a shear gave; mass length^2 / time^2
+// What became of a contact of two disks.
+struct PairImpact {
+  double virial = 0.0;  // |impulse| x distance of the centres; mass length^2 / time
   bool happened = false;
   // Late, since the contact is older than the step; or made elastic by the TC model (exact).
   bool inaccurate = false;
-  bool lost_energy = false;  // exact only
-  bool sheared = false;      // two disks in a sheared box: there is `shear`
-  bool pushed = false;       // by an inner wall that moves: `virial` and `shear` are the momentum, along x and y
-  double shear = 0.0;        // in a sheared box: virial nx ny of two disks, n from one centre to the other
+  bool lost_energy = false;   // exact only
+  bool sheared = false;       // in a sheared box: there are these two
+  double shear_virial = 0.0;  // virial nx ny, n from one centre to the other; mass length^2 / time
+  double shear_work = 0.0;    // that the shear did, by crossings of exact too; mass length^2 / time^2
 };
 
+// What became of a contact of a disk and a side or an obstacle.
+struct WallImpact {
+  double impulse = 0.0;  // its size; mass length / time
+  double energy =
+      0.0;  // that a thermal side or a wall that moves gave, or a shear at a crossing; mass length^2 / time^2
+  bool happened = false;
+  bool inaccurate = false;   // as of two disks
+  bool lost_energy = false;  // likewise
+  bool pushed = false;       // by an inner wall that moves: there is this one
+  Vec2 momentum{};           // that the wall gave; mass length / time
+};
+
+// Of either kind.
+using Impact = std::variant<PairImpact, WallImpact>;
+
+inline bool has_happened(const Impact& impact) {
+  return std::visit([](const auto& one) { return one.happened; }, impact);
+}
+
 // What an inner wall that moves at `velocity` did to a disk whose velocity it changed from `before` to (vx, vy).
-inline void see_push(Impact& impact, double mass, Vec2 velocity, Vec2 before, double vx, double vy) {
+inline void see_push(WallImpact& impact, double mass, Vec2 velocity, Vec2 before, double vx, double vy) {
   impact.pushed = true;
-  impact.virial = mass * (vx - before.x);
-  impact.shear = mass * (vy - before.y);
-  impact.energy = impact.virial * velocity.x + impact.shear * velocity.y;
+  impact.momentum = {mass * (vx - before.x), mass * (vy - before.y)};
+  impact.energy = impact.momentum.x * velocity.x + impact.momentum.y * velocity.y;
 }
 
 }  // namespace carom

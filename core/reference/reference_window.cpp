@@ -115,17 +115,24 @@ class EventLoop {
     add_travel(e.i1, e.time);
     if (pair) add_travel(e.i2, e.time);
     ExactDisk& first = result_.disks[e.i1];
-    const Impact outcome = pair                 ? collide_at(rules_, e.time, first, result_.disks[e.i2])
-                           : is_obstacle(e.id2) ? meet_obstacle_at(rules_, e.time, obstacle_of(e.id2), first)
-                                                : meet_side_at(rules_, e.time, wall_side(e.id2), first);
-    result_.tally.add(e.id2, outcome);
-    if (pair && outcome.happened) result_.collisions.emplace_back(e.id1, e.id2);
+    bool lost_energy = false;
+    if (pair) {
+      const PairImpact impact = collide_at(rules_, e.time, first, result_.disks[e.i2]);
+      result_.tally.add_pair(impact);
+      if (impact.happened) result_.collisions.emplace_back(e.id1, e.id2);
+      lost_energy = impact.lost_energy;
+    } else {
+      const WallImpact impact = is_obstacle(e.id2) ? meet_obstacle_at(rules_, e.time, obstacle_of(e.id2), first)
+                                                   : meet_side_at(rules_, e.time, wall_side(e.id2), first);
+      result_.tally.add_wall(e.id2, impact);
+      lost_energy = impact.lost_energy;
+    }
     if (!pair && is_sink(rules_.box, e.id2)) {
       result_.gone[e.i1] = 1;
       result_.tally.add_absence(plan_.length - e.time);
     }
-    begin_segment(e, e.i1, outcome.lost_energy);
-    if (pair) begin_segment(e, e.i2, outcome.lost_energy);
+    begin_segment(e, e.i1, lost_energy);
+    if (pair) begin_segment(e, e.i2, lost_energy);
     if (pair) predict(e.i2, false);
     if (result_.gone[e.i1] == 0) predict(e.i1, false);
   }

@@ -25,8 +25,9 @@ void resolve_impacts(const View& d, const State& state, const StepRules& rules, 
       if (rules.settles && is_support(d, rules, e, load_of(state.loads, e) > 0.0, crowded)) continue;
       const Impact impact = resolve_event(d, rules, e);
       tally.add(e.id2, impact);
-      if (log != nullptr && impact.happened && !is_wall(e.id2)) log->emplace_back(e.id1, e.id2);
-      any = any || (crowded && impact.happened);
+      const bool happened = has_happened(impact);
+      if (log != nullptr && happened && !is_wall(e.id2)) log->emplace_back(e.id1, e.id2);
+      any = any || (crowded && happened);
     }
   }
 }

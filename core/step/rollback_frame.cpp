@@ -35,8 +35,8 @@ void bounce_all(Disks& disks, const StepRules& rules, const std::vector<ContactE
                 CollisionLog* log) {
   with_view(disks, rules, [&](const auto& d) {
     for (const ContactEvent& e : events) {
-      const Impact impact = bounce_pair(d, rules, e.i1, e.i2);
-      tally.add(e.id2, impact);
+      const PairImpact impact = bounce_pair(d, rules, e.i1, e.i2);
+      tally.add_pair(impact);
       if (log != nullptr && impact.happened) log->emplace_back(e.id1, e.id2);
     }
   });

@@ -24,14 +24,14 @@ bool is_met(Disks& disks, const StepRules& rules, const ContactEvent& event);
 // A pair found bounces by (23) where it is now, if it still approaches: with the velocities of the moment, not copies
 // (F3). A pair that has not yet touched bounces at a distance: F2, kept.
 template <class View>
-Impact bounce_pair(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t j) {
+PairImpact bounce_pair(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t j) {
   const Relative r = relative(d, i, j, rules.box);
   if (!(r.approach() < 0.0)) return {};
   const double e = pair_restitution(d, rules, i, j, r);
   const Shares share = shares_of(d, i, j);
   const double before = d.vx[j];
   const double change = collide(r, share, e, d.vx[i], d.vy[i], d.vx[j], d.vy[j]);
-  Impact impact{.virial = reduced_mass(d.mass(i), d.mass(j)) * change, .happened = true};
+  PairImpact impact{.virial = reduced_mass(d.mass(i), d.mass(j)) * change, .happened = true};
   rub_pair(d, rules, i, j, r, share, change);
   see_shear_of(d, rules, i, j, r, before, impact);
   return impact;
@@ -57,7 +57,7 @@ void meet_walls(const View& d, const StepRules& rules, std::uint32_t i, ImpactTa
   for (Side side : all_sides) {
     if (rules.box.side(side) != SideKind::wall) continue;
     if (open >= 0.0 && reach_beyond_wall(side, d.x[i], d.y[i], d.radius(i), rules.box) <= open) continue;
-    tally.add(wall_partner(side), resolve_wall(d, rules, i, side));
+    tally.add_wall(wall_partner(side), resolve_wall(d, rules, i, side));
     push_wall(d, rules.box, i, side, 0.0);
   }
   if (rules.box.obstacles == nullptr) return;
@@ -66,7 +66,7 @@ void meet_walls(const View& d, const StepRules& rules, std::uint32_t i, ImpactTa
   for_each_solid_touched_in_order(rules.box, x, y, r, [&](std::uint32_t k, const ObstacleGap& gap) {
     if (gap.beyond <= open || is_hidden(rules.box, k, gap, x, y, r)) return;
     touched = true;
-    tally.add(obstacle_partner(k), resolve_obstacle(d, rules, i, k));
+    tally.add_wall(obstacle_partner(k), resolve_obstacle(d, rules, i, k));
     push_from_obstacle(d, rules.box, i, (*rules.box.obstacles)[k], 0.0);
   });
   if (touched) see_wall_overlap(d.x[i], d.y[i], d.radius(i), d.id[i], rules.box, seen);

@@ -30,8 +30,8 @@ void EventProcessor<scope>::meet_side(std::uint32_t i, double time) {
   const Side side = record_[i].partner.side();
   const DiskId partner = record_[i].partner.wall_id();
   ExactDisk now = disk(i);
-  const Impact impact = meet_side_at(window_.rules, time, side, now);
-  if (counts(i)) worker_.tally.add(partner, impact);
+  const WallImpact impact = meet_side_at(window_.rules, time, side, now);
+  if (counts(i)) worker_.tally.add_wall(partner, impact);
   const bool gone = window_.rules.box.side(side) == SideKind::sink;
   const EventMark event{time, record_[i].id, partner};
   begin_segment(i, now, gone ? LoggedSegment::gone : LoggedSegment::no_disk, event);
@@ -47,8 +47,8 @@ template <Scope scope>
 void EventProcessor<scope>::meet_obstacle(std::uint32_t i, double time) {
   const DiskId partner = record_[i].partner.wall_id();
   ExactDisk now = disk(i);
-  const Impact impact = meet_obstacle_at(window_.rules, time, record_[i].partner.place(), now);
-  if (counts(i)) worker_.tally.add(partner, impact);
+  const WallImpact impact = meet_obstacle_at(window_.rules, time, record_[i].partner.place(), now);
+  if (counts(i)) worker_.tally.add_wall(partner, impact);
   const EventMark event{time, record_[i].id, partner};
   const bool gone = is_sink(window_.rules.box, partner);
   begin_segment(i, now, gone ? LoggedSegment::gone : LoggedSegment::no_disk, event);
@@ -197,7 +197,7 @@ template <bool falls, class RestitutionOf>
 PlainCollision EventProcessor<scope>::collide_across(double time, Shares share, RestitutionOf restitution,
                                                      PathSegment& p, PathSegment& q) const {
   const ExactRules& rules = window_.rules;
-  const Impact impact = collide_paths<falls>(rules.box, rules.gravity, time, share, 1.0, restitution, p, q);
+  const PairImpact impact = collide_paths<falls>(rules.box, rules.gravity, time, share, 1.0, restitution, p, q);
   return {impact.happened, impact.virial, 0.0, std::max(p.vx * p.vx + p.vy * p.vy, q.vx * q.vx + q.vy * q.vy)};
 }
 
@@ -238,8 +238,8 @@ void EventProcessor<scope>::collide_any_pair(std::uint32_t i, std::uint32_t j, d
     worker_.too_fast = worker_.ended = true;
     return;
   }
-  const Impact impact = collide_at(window_.rules, time, a, b);
-  if (counts(i)) worker_.tally.add(b.id, impact);
+  const PairImpact impact = collide_at(window_.rules, time, a, b);
+  if (counts(i)) worker_.tally.add_pair(impact);
   if constexpr (scope == Scope::part) note_contact(record_[i], record_[j]);
   const EventMark event{time, a.id, b.id};
   begin_segment(i, a, j, event);

@@ -93,7 +93,7 @@ struct ConstantRestitution {
 struct PlainCollision {
   bool happened = false;     // otherwise the disks recede by rounding: their paths only begin anew
   double change = 0.0;       // of the squared-distance rate, as collide() returns it
-  double shear_share = 0.0;  // of the virial that is Impact::shear in a sheared box, of smooth disks
+  double shear_share = 0.0;  // of the virial that is PairImpact::shear_virial in a sheared box, of smooth disks
   double fastest2 = 0.0;     // largest v^2 of both
 };
 

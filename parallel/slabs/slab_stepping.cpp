@@ -279,7 +279,7 @@ double SlabStepping::resolve_alone_at_border(const StepRules& rules, ImpactTally
   double speed2 = 0.0;
   with_view(state_.disks, rules, [&](const auto& d) {
     for (const ContactEvent& e : border_contacts_.alone()) {
-      const Impact impact = resolve_pair(d, rules, e.i1, e.i2);
+      const PairImpact impact = resolve_pair(d, rules, e.i1, e.i2);
       if (!ghosts_.is_ghost(e.i1)) tally.add_pair(impact);
       push_pair(d, rules.box, e.i1, e.i2, 0.0);
       see_overlap_left(d, rules.box, e, lists_.figures);

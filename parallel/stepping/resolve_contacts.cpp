@@ -106,7 +106,7 @@ void resolve_alone_walls(const View& d, const StepRules& rules, const WallReach&
       lists.crowded_blocks[b].push_back(e);
       continue;
     }
-    lists.tallies[b].add(e.id2, resolve_event(d, rules, e));
+    lists.tallies[b].add_wall(e.id2, resolve_wall_event(d, rules, e));
     push_apart(d, rules.box, e, 0.0);
     lists.largest[b] = std::max(lists.largest[b], finish_disk(d, rules.box, walls, e.i1, lists.seen[b]));
     lists.contacts[e.i1] = 0;

@@ -49,7 +49,7 @@ class RollbackPhases : public TimeStepping {
     const PhaseTimer timer(times_, "resolve");
     with_view(state_.disks, rules, [&](const auto& d) {
       split_crowded(executor_, lists_, tally, [&](const ContactEvent& e, ImpactTally& block) {
-        block.add(e.id2, bounce_pair(d, rules, e.i1, e.i2));
+        block.add_pair(bounce_pair(d, rules, e.i1, e.i2));
       });
     });
     bounce_all(state_.disks, rules, lists_.crowded, tally);

@@ -50,7 +50,7 @@ int expect_bits_of_the_formula(const Gravity& gravity, const Flight& flight) {
     const Shares share = round % 2 == 0 ? equal_shares : shares(draws.in(0.1, 1.0), draws.in(0.1, 10.0));
     PathSegment core_p = p;
     PathSegment core_q = q;
-    const Impact impact =
+    const PairImpact impact =
         collide_paths<falls, false>(Domain{}, gravity, s, share, 1.0, drawn_restitution, core_p, core_q);
     const PlainCollision outcome = collide_plainly(s, flight, share, drawn_restitution, p, q);
     happened += impact.happened ? 1 : 0;

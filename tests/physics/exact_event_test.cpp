@@ -46,7 +46,7 @@ TEST(TcPair, IsElasticWhereEitherDiskCollidedShortlyBefore) {
     ExactDisk a = disk_at(3.0, 5.0, 1.0, 0.0, s - ago1);
     ExactDisk b = disk_at(7.0, 5.0, -1.0, 0.0, s - ago2);
     b.id = 1;
-    const Impact impact = collide_at(rules, s, a, b);
+    const PairImpact impact = collide_at(rules, s, a, b);
     EXPECT_TRUE(impact.happened);
     EXPECT_EQ(b.path.vx - a.path.vx, elastic ? 2.0 : 1.0);
     EXPECT_EQ(impact.inaccurate, elastic);
@@ -62,7 +62,7 @@ TEST(TcPair, ElasticDisksAreNotHeld) {
   rules.restitution = 1.0;
   ExactDisk a = disk_at(4.0, 5.0, 1.0, 0.0, 0.0);
   ExactDisk b = disk_at(6.0, 5.0, -1.0, 0.0, 0.0);
-  const Impact impact = collide_at(rules, 0.0, a, b);
+  const PairImpact impact = collide_at(rules, 0.0, a, b);
   EXPECT_TRUE(impact.happened);
   EXPECT_FALSE(impact.inaccurate);
   EXPECT_FALSE(impact.lost_energy);
@@ -79,7 +79,7 @@ TEST(TcPair, RoughDisksAreSmoothWhereItHoldsThem) {
     ExactDisk a = disk_at(4.0, 5.0, 1.0, 0.0, held ? 0.0 : -never);
     ExactDisk b = disk_at(6.0, 5.0, -1.0, 0.0);
     a.spin = 3.0;
-    const Impact impact = collide_at(rules, 0.0, a, b);
+    const PairImpact impact = collide_at(rules, 0.0, a, b);
     EXPECT_EQ(a.spin == 3.0, held);
     EXPECT_EQ(impact.inaccurate, held);
     EXPECT_EQ(impact.lost_energy, !held);
@@ -108,16 +108,16 @@ TEST(TcHop, OffTheFloor) {
   ExactRules rules = tc_rules();
   rules.gravity = 0.8;
   ExactDisk rests = disk_at(5.0, 1.0, 0.3, 0.0);
-  const Impact impact = meet_side_at(rules, 0.0, Side::bottom, rests);
+  const WallImpact impact = meet_side_at(rules, 0.0, Side::bottom, rests);
   EXPECT_DOUBLE_EQ(rests.path.vy, 0.25 * 0.8 * contact_time);
   EXPECT_EQ(rests.path.vx, 0.3);
-  EXPECT_DOUBLE_EQ(impact.virial, 2.0 * 0.25 * 0.8 * contact_time);
+  EXPECT_DOUBLE_EQ(impact.impulse, 2.0 * 0.25 * 0.8 * contact_time);
   EXPECT_EQ(rests.last_contact, 0.0);
   ExactDisk fast = disk_at(5.0, 1.0, 0.0, -4.0);
-  EXPECT_DOUBLE_EQ(meet_side_at(rules, 0.0, Side::bottom, fast).virial, 2.0 * 6.0);
+  EXPECT_DOUBLE_EQ(meet_side_at(rules, 0.0, Side::bottom, fast).impulse, 2.0 * 6.0);
   EXPECT_EQ(fast.path.vy, 2.0);
   ExactDisk at_ceiling = disk_at(5.0, 9.0, 0.0, 0.0);
-  EXPECT_EQ(meet_side_at(rules, 0.0, Side::top, at_ceiling).virial, 0.0);
+  EXPECT_EQ(meet_side_at(rules, 0.0, Side::top, at_ceiling).impulse, 0.0);
   EXPECT_EQ(at_ceiling.path.vy, 0.0);
 }
 
@@ -127,7 +127,7 @@ TEST(TcWall, IsElasticShortlyAfterAContact) {
   for (const bool held : {true, false}) {
     ExactDisk a = disk_at(9.0, 5.0, 2.0, 0.0, held ? 0.75 : 0.25);
     a.path.start = 1.0;
-    const Impact impact = meet_side_at(rules, 1.0, Side::right, a);
+    const WallImpact impact = meet_side_at(rules, 1.0, Side::right, a);
     EXPECT_EQ(a.path.vx, held ? -2.0 : -1.0);
     EXPECT_EQ(impact.inaccurate, held);
     EXPECT_EQ(impact.lost_energy, !held);
@@ -149,7 +149,7 @@ TEST(TcWall, IsSmoothWhereItHoldsADisk) {
       }
       ExactDisk a = disk_at(9.0, 5.0, 2.0, 0.0, held ? 0.0 : -never);
       a.spin = 3.0;
-      const Impact impact = meet_side_at(rules, 0.0, Side::right, a);
+      const WallImpact impact = meet_side_at(rules, 0.0, Side::right, a);
       EXPECT_EQ(a.path.vx, moving ? -3.0 : -2.0);
       EXPECT_EQ(a.spin == 3.0, held) << moving;
       EXPECT_EQ(impact.inaccurate, held) << moving;
@@ -168,17 +168,17 @@ TEST(TcHop, OffAFloorThatAccelerates) {
   const SidePlace floor = rules.box.place(Side::bottom);
   ASSERT_EQ(floor.acceleration, 0.5);
   ExactDisk rests = disk_at(5.0, 1.0 + floor.inset, 0.0, floor.speed);
-  const Impact impact = meet_side_at(rules, 0.0, Side::bottom, rests);
+  const WallImpact impact = meet_side_at(rules, 0.0, Side::bottom, rests);
   const double hop = 0.25 * (0.8 + 0.5) * contact_time;
   EXPECT_DOUBLE_EQ(rests.path.vy, floor.speed + hop);
-  EXPECT_DOUBLE_EQ(impact.virial, 2.0 * hop);
+  EXPECT_DOUBLE_EQ(impact.impulse, 2.0 * hop);
   EXPECT_DOUBLE_EQ(impact.energy, 2.0 * hop * floor.speed);
   // A floor that gives way faster than disks fall is left alone.
   rules.gravity = 0.2;
   rules.box.move_walls(2.5);
   ASSERT_EQ(rules.box.place(Side::bottom).acceleration, -0.5);
   ExactDisk left_behind = disk_at(5.0, 1.0, 0.0, rules.box.place(Side::bottom).speed);
-  EXPECT_EQ(meet_side_at(rules, 0.0, Side::bottom, left_behind).virial, 0.0);
+  EXPECT_EQ(meet_side_at(rules, 0.0, Side::bottom, left_behind).impulse, 0.0);
 }
 
 // The obstacles of the tests below.
@@ -207,17 +207,17 @@ TEST_F(TcObstacle, IsLeftWithAHop) {
   const double hop = 0.25 * 0.8 * 0.8 * contact_time;
   place(peg);
   ExactDisk on_peg = disk_at(5.0 - 1.8, 5.0 + 2.4, 0.0, 0.0);
-  Impact impact = meet_obstacle_at(rules, 0.0, 0, on_peg);
+  WallImpact impact = meet_obstacle_at(rules, 0.0, 0, on_peg);
   EXPECT_NEAR(on_peg.path.vx, -0.6 * hop, 1e-15);
   EXPECT_NEAR(on_peg.path.vy, 0.8 * hop, 1e-15);
-  EXPECT_NEAR(impact.virial, 2.0 * hop, 1e-15);
+  EXPECT_NEAR(impact.impulse, 2.0 * hop, 1e-15);
   EXPECT_EQ(on_peg.last_contact, 0.0);
   place(slope);
   ExactDisk on_slope = disk_at(5.0 - 0.6, 5.0 + 0.8, 0.4, 0.3);
   impact = meet_obstacle_at(rules, 0.0, 0, on_slope);
   EXPECT_NEAR(on_slope.path.vx, 0.4 - 0.6 * hop, 1e-15);
   EXPECT_NEAR(on_slope.path.vy, 0.3 + 0.8 * hop, 1e-15);
-  EXPECT_NEAR(impact.virial, 2.0 * hop, 1e-15);
+  EXPECT_NEAR(impact.impulse, 2.0 * hop, 1e-15);
 }
 
 // One that comes in slowly leaves with the hop, not with its rebound and the hop.
@@ -225,7 +225,7 @@ TEST_F(TcObstacle, IsLeftWithTheHopWhateverTheApproach) {
   rules.gravity = 0.8;
   place({1.0, 5.0, 8.0, 0.0, 0.0, 0.5, 0, ObstacleKind::wall});
   ExactDisk slow = disk_at(5.0, 6.0, 0.0, -0.01);
-  EXPECT_NEAR(meet_obstacle_at(rules, 0.0, 0, slow).virial, 2.0 * (0.01 + 0.1), 1e-15);
+  EXPECT_NEAR(meet_obstacle_at(rules, 0.0, 0, slow).impulse, 2.0 * (0.01 + 0.1), 1e-15);
   EXPECT_NEAR(slow.path.vy, 0.25 * 0.8 * contact_time, 1e-15);
   ExactDisk fast = disk_at(5.0, 6.0, 0.0, -4.0);
   meet_obstacle_at(rules, 0.0, 0, fast);
@@ -236,7 +236,7 @@ TEST_F(TcObstacle, IsElasticShortlyAfterAContact) {
   place(peg);
   for (const bool held : {true, false}) {
     ExactDisk a = disk_at(5.0, 8.0, 0.0, -2.0, held ? -0.25 : -0.5);
-    const Impact impact = meet_obstacle_at(rules, 0.0, 0, a);
+    const WallImpact impact = meet_obstacle_at(rules, 0.0, 0, a);
     EXPECT_NEAR(a.path.vy, held ? 2.0 : 1.0, 1e-15);
     EXPECT_EQ(impact.inaccurate, held);
     EXPECT_EQ(impact.lost_energy, !held);
@@ -244,7 +244,7 @@ TEST_F(TcObstacle, IsElasticShortlyAfterAContact) {
   }
   // A disk that only passes by has no contact.
   ExactDisk passes = disk_at(5.0, 8.0, 1.0, 0.0);
-  const Impact impact = meet_obstacle_at(rules, 0.0, 0, passes);
+  const WallImpact impact = meet_obstacle_at(rules, 0.0, 0, passes);
   EXPECT_FALSE(impact.happened);
   EXPECT_FALSE(impact.lost_energy);
   EXPECT_EQ(passes.last_contact, -never);
@@ -260,7 +260,7 @@ TEST_F(TcObstacle, IsSmoothWhereItHoldsADisk) {
   for (const bool held : {true, false}) {
     ExactDisk a = disk_at(5.0, 8.0, 0.0, -2.0, held ? 0.0 : -never);
     a.spin = 3.0;
-    const Impact impact = meet_obstacle_at(rules, 0.0, 0, a);
+    const WallImpact impact = meet_obstacle_at(rules, 0.0, 0, a);
     EXPECT_EQ(a.spin == 3.0, held);
     EXPECT_EQ(impact.inaccurate, held);
     EXPECT_EQ(impact.lost_energy, !held);
@@ -307,10 +307,13 @@ TEST_F(TcObstacle, ThatAcceleratesIsLeftWithAHigherHop) {
   const double hop = 0.25 * gn * contact_time;
   ASSERT_GT(hop, 0.0);
   ExactDisk a = disk_at(5.0 - 0.6 + now.shift.x, 5.0 + 0.8 + now.shift.y, now.velocity.x, now.velocity.y);
-  const Impact impact = meet_obstacle_at(rules, 0.0, 0, a);
+  const WallImpact impact = meet_obstacle_at(rules, 0.0, 0, a);
   EXPECT_NEAR(a.path.vx, now.velocity.x - 0.6 * hop, 1e-14);
   EXPECT_NEAR(a.path.vy, now.velocity.y + 0.8 * hop, 1e-14);
   EXPECT_NEAR(impact.energy, 2.0 * hop * (-0.6 * now.velocity.x + 0.8 * now.velocity.y), 1e-14);
+  EXPECT_NEAR(impact.impulse, 2.0 * hop, 1e-14);
+  EXPECT_NEAR(impact.momentum.x, -0.6 * 2.0 * hop, 1e-14);
+  EXPECT_NEAR(impact.momentum.y, 0.8 * 2.0 * hop, 1e-14);
 }
 
 // A sum of reasons, each of which is enough.

@@ -26,7 +26,7 @@ TEST(GrazingPair, IsResolvedWhereItIs) {
       const Relative r = relative(d, 0, 1, scene.box);
       if (!touches(r.distance2(), 1.0) || !(r.approach() < 0.0)) return;
       missed += std::isinf(touching_time(r, 1.0)) ? 1 : 0;
-      const Impact impact = resolve_pair(d, {scene.box, 1.0, 0.5, 0.01, true}, 0, 1);
+      const PairImpact impact = resolve_pair(d, {scene.box, 1.0, 0.5, 0.01, true}, 0, 1);
       EXPECT_TRUE(std::isfinite(impact.virial));
       EXPECT_NEAR(d.x[0], 10.0, 1e-9);
       EXPECT_NEAR(d.y[1], 10.0 + ny, 0.01 * slide + 1e-9);

@@ -21,10 +21,18 @@ StepRules rules_of(const Gravity& gravity, double restitution) {
   return rules;
 }
 
-Impact resolve(Disks& disks, const StepRules& rules, DiskId id2) {
-  return with_view(disks, rules, [&](const auto& d) {
-    return resolve_event(d, rules, {0.0, 0, id2, 0, is_wall(id2) ? 0U : 1U});
-  });
+template <class OfKind>
+OfKind resolve(Disks& disks, const StepRules& rules, const ContactEvent& e) {
+  return with_view(disks, rules, [&](const auto& d) { return std::get<OfKind>(resolve_event(d, rules, e)); });
+}
+
+// Disks 0 and 1.
+PairImpact resolve_disks(Disks& disks, const StepRules& rules) {
+  return resolve<PairImpact>(disks, rules, {0.0, 0, 1, 0, 1});
+}
+
+WallImpact resolve_disk_at(Disks& disks, const StepRules& rules, DiskId wall) {
+  return resolve<WallImpact>(disks, rules, {0.0, 0, wall, 0, 0});
 }
 
 // A contact that began with the step, but for a millionth of it, began within it, and is ordered as if with it.
@@ -50,7 +58,7 @@ TEST(ContactTime, IsLateWhereADiskWasBeyondBefore) {
 TEST(ResolvePair, ThatIsOlderThanTheStepCollidesWhereItIs) {
   for (const double overlap : {0.2, 0.3}) {  // at relative speed 2: 0.1 and 0.15 ago
     Disks disks = test::disks_of({{5.0, 5.0, 1.0, 0.0, 1.0, 1.0}, {7.0 - overlap, 5.0, -1.0, 0.0, 1.0, 3.0}});
-    const Impact impact = resolve(disks, rules_of(0.0, 1.0), 1);
+    const PairImpact impact = resolve_disks(disks, rules_of(0.0, 1.0));
     const bool late = overlap > 0.25;
     EXPECT_TRUE(impact.happened);
     EXPECT_EQ(impact.inaccurate, late);
@@ -64,7 +72,7 @@ TEST(ResolvePair, ThatIsOlderThanTheStepCollidesWhereItIs) {
 TEST(ResolvePair, LeavesOthersAlone) {
   for (const auto& [apart, speed] : {std::pair{2.1, -1.0}, std::pair{1.9, 1.0}}) {
     Disks disks = test::disks_of({{5.0, 5.0, 0.0, 0.0, 1.0, 1.0}, {5.0 + apart, 5.0, speed, 0.0, 1.0, 3.0}});
-    EXPECT_FALSE(resolve(disks, rules_of(0.0, 1.0), 1).happened);
+    EXPECT_FALSE(resolve_disks(disks, rules_of(0.0, 1.0)).happened);
     EXPECT_EQ(disks.vx[0], 0.0);
     EXPECT_EQ(disks.x[0], 5.0);
   }
@@ -86,14 +94,15 @@ TEST(ResolveWall, LiftsADiskAtTheCostOfItsMotion) {
                                         : Vec2{9.0 + n.x, 4.5 + n.y};
       Disks disks =
           test::disks_of({{touching.x - 0.1 * n.x, touching.y - 0.1 * n.y, -speed * n.x, -speed * n.y, 1.0, 3.0}});
-      const Impact impact = resolve(disks, rules, kind == 0 ? wall_partner(Side::bottom) : obstacle_partner(0));
+      const WallImpact impact =
+          resolve_disk_at(disks, rules, kind == 0 ? wall_partner(Side::bottom) : obstacle_partner(0));
       const double left = speed * speed - 2.0 * 2.0 * n.y * 0.1;
       const double away = 0.5 * std::sqrt(std::max(0.0, left));
       EXPECT_NEAR(disks.vx[0], away * n.x, 1e-14) << kind;
       EXPECT_NEAR(disks.vy[0], away * n.y, 1e-14) << kind;
       EXPECT_NEAR(disks.x[0], touching.x, 1e-14) << kind;
       EXPECT_NEAR(disks.y[0], touching.y, 1e-14) << kind;
-      EXPECT_NEAR(impact.virial, 3.0 * (speed + away), 1e-14) << kind;
+      EXPECT_NEAR(impact.impulse, 3.0 * (speed + away), 1e-14) << kind;
     }
   }
 }
@@ -107,7 +116,7 @@ TEST(ResolveWall, AsksForTheRestitutionOfTheSpeedAtTheObstacle) {
   const ObstacleCells cells({{10.0, 5.0, 0.0, 0.0, 2.0, 0.0, 7, ObstacleKind::disk}}, {}, rules.box);
   rules.box.obstacles = &cells;
   Disks disks = test::disks_of({{10.0, 7.9, 0.0, -0.7, 1.0, 3.0}});
-  resolve(disks, rules, obstacle_partner(0));
+  resolve_disk_at(disks, rules, obstacle_partner(0));
   const double there = std::sqrt(0.49 - 0.4);
   EXPECT_NEAR(disks.vy[0], there * (1.0 - 0.5 * std::pow(there, 0.2)), 1e-14);
 }
@@ -120,16 +129,16 @@ TEST(SeeShear, CountsMomentumThatGoesAlongY) {
   shear.rate = 0.5;
   shear.jump = 5.0;
   for (const int rows : {-1, 0, 1}) {
-    Impact smooth;
+    PairImpact smooth;
     smooth.virial = 4.0;
     see_shear(smooth, r, rows, 2.4, false, shear);
     EXPECT_TRUE(smooth.sheared);
-    EXPECT_DOUBLE_EQ(smooth.shear, 4.0 * 0.48);
-    EXPECT_DOUBLE_EQ(smooth.energy, -5.0 * rows * 2.4);
-    Impact rough;
+    EXPECT_DOUBLE_EQ(smooth.shear_virial, 4.0 * 0.48);
+    EXPECT_DOUBLE_EQ(smooth.shear_work, -5.0 * rows * 2.4);
+    PairImpact rough;
     rough.virial = 4.0;
     see_shear(rough, r, rows, 3.0, true, shear);
-    EXPECT_DOUBLE_EQ(rough.shear, 0.8 * 3.0);
+    EXPECT_DOUBLE_EQ(rough.shear_virial, 0.8 * 3.0);
   }
 }
 
