@@ -17,14 +17,6 @@ constexpr double search_rounding = 4e-5;
 
 }  // namespace
 
-void NeighbourLists::find_tiles(std::size_t disks) {
-  first_of_tile_.assign(std::size_t{grid_.tiles} + 1, static_cast<std::uint32_t>(disks));
-  first_of_tile_[0] = 0;
-  for (std::uint32_t tile = 1; tile < grid_.tiles; ++tile) {
-    first_of_tile_[tile] = cells_.start[std::size_t{tile} * grid_.tile_keys];
-  }
-}
-
 // Differences of two places that are listed together must not wrap round in a slot, and those of all that one search
 // sees should not, unless units would be coarse then: others may be listed too. A period has more bits than a slot, or
 // as many, so that differences wrap round the box as they do in full.
@@ -46,10 +38,10 @@ void NeighbourLists::choose_slot_units() {
     }
     return bits;
   };
-  slot_shift_x_ = shift(unit_x_, cell_width);
-  slot_shift_y_ = shift(unit_y_, cell_height);
-  slot_unit_x_ = std::ldexp(unit_x_, static_cast<int>(slot_shift_x_));
-  slot_unit_y_ = std::ldexp(unit_y_, static_cast<int>(slot_shift_y_));
+  slot_shift_x_ = shift(listed_box_.unit.x, cell_width);
+  slot_shift_y_ = shift(listed_box_.unit.y, cell_height);
+  slot_unit_x_ = std::ldexp(listed_box_.unit.x, static_cast<int>(slot_shift_x_));
+  slot_unit_y_ = std::ldexp(listed_box_.unit.y, static_cast<int>(slot_shift_y_));
   const double unit = std::max(slot_unit_x_, slot_unit_y_);
   slots_per_length_ = 1.0 / unit;
   search_margin_ = 2.0 * (slot_unit_x_ + slot_unit_y_) + 2.0 * list_kernel_rounding * unit + search_rounding * listed;

@@ -6,7 +6,7 @@
 namespace carom {
 
 void NeighbourLists::append(const Disks& d, std::uint32_t i, Vec2 at) {
-  const FixedPointPosition position = fixed_point(at.x, at.y);
+  const FixedPointPosition position = listed_box_.fixed_point(at.x, at.y);
   const ListRegion everything;
   ++first_of_tile_.back();
   rows_.append(position);

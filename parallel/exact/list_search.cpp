@@ -31,7 +31,8 @@ void NeighbourLists::prepare_query(const Disks& d) {
   query_.cutoff = static_cast<float>(reach * single_margin);
   query_.radius = radius_in_units(d.common_radius);
   const double length = 2.0 * flow_.stretch * d.common_radius + 2.0 * skin_ + search_margin_;
-  common_reach_ = {listed_units(length, units_per_x_), listed_units(length, units_per_y_)};
+  common_reach_ = {listed_units(length, listed_box_.units_per_length.x),
+                   listed_units(length, listed_box_.units_per_length.y)};
 }
 
 void NeighbourLists::list_levels() {
@@ -85,7 +86,7 @@ bool NeighbourLists::find_neighbours(const Disks& d, std::uint32_t i, FixedPoint
 bool NeighbourLists::find_list(std::uint32_t i, Vec2 at, const Disks& d, const ListRegion& region,
                                FoundNeighbours& found) const {
   found.count = 0;
-  found.at = fixed_point(at.x, at.y);
+  found.at = listed_box_.fixed_point(at.x, at.y);
   if (mode_ == EngineMode::all_pairs) return true;
   // Neighbours of the old list must be in the region, too: one elsewhere would go on listing disk i, and when it comes
   // near again and is relisted, it would take disk i for one that lists it as well.
@@ -101,7 +102,7 @@ void NeighbourLists::prefetch_search(const PathSegment& path, double radius, dou
   if (mode_ == EngineMode::all_pairs || flow_.acts) return;
   const double s = time - path.start;
   const Vec2 at = listing_place({time, path.x + s * path.vx, path.y + s * path.vy, path.vx, path.vy}, box_, relist);
-  visit_cells_in_reach(radius, fixed_point(at.x, at.y), [&](const CellBlock& block) {
+  visit_cells_in_reach(radius, listed_box_.fixed_point(at.x, at.y), [&](const CellBlock& block) {
     for_each_row(block, [&](auto first, auto last) { slots_.prefetch(first, last); });
   });
   // g++ 12 leaves out calls of functions that do nothing but prefetch.

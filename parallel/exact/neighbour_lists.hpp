@@ -19,6 +19,7 @@
 #include "parallel/exact/flow_frame.hpp"
 #include "parallel/exact/list_kernel.hpp"
 #include "parallel/exact/list_rows.hpp"
+#include "parallel/exact/listed_box.hpp"
 #include "parallel/exact/listed_cells.hpp"
 #include "parallel/exact/relist_distance.hpp"
 #include "parallel/threads/executor.hpp"
@@ -78,9 +79,9 @@ class NeighbourLists {
   // Not in all-pairs mode.
   double skin() const { return skin_; }  // length
   const RelistDistance& relist_distance(bool near_border) const { return near_border ? near_border_ : elsewhere_; }
-  Vec2 listed_unit() const { return {unit_x_, unit_y_}; }  // of a FixedPointPosition; length
+  Vec2 listed_unit() const { return listed_box_.unit; }  // of a FixedPointPosition; length
   // Of disk i; inside the box, but for rounding.
-  Vec2 listed_position(std::uint32_t i) const { return position_of(rows_.listed_at(i)); }
+  Vec2 listed_position(std::uint32_t i) const { return listed_box_.position_of(rows_.listed_at(i)); }
 
   // A tile is a run of disks in storage that are neighbours in space. A layer is a run of tiles that reaches from one
   // of the box's longer sides to the other. Without regions there is one tile.
@@ -124,7 +125,7 @@ class NeighbourLists {
     const Vec2 listed = listed_position(i);
     Vec2 d{path.x + path.vx * s - listed.x, path.y + path.vy * s - listed.y};
     if (!rows_.row(i).is_inside()) [[unlikely]]
-      d = nearest_image_of(d);
+      d = listed_box_.nearest_image_of(d);
     return from + time_within(relist.stay2, d, {path.vx, path.vy});
   }
 
@@ -155,24 +156,12 @@ class NeighbourLists {
   }
 
   // Is this place out of the box along a period?
-  bool is_outside(double x, double y) const {
-    return (x < 0.0 && period_x_ > 0.0) || (y < 0.0 && period_y_ > 0.0) || (x >= period_x_ && period_x_ > 0.0) ||
-           (y >= period_y_ && period_y_ > 0.0);
-  }
-  // A path may leave the box along a period and lead far into it from the other side. Its coordinates are then not
-  // those of the place where the disk is listed, so that disks there must look for images. Returns how far from the
-  // border a disk is listed whose path has come to p; 0 where p is in the box, or the disk so near the border that all
-  // disks there look for images anyway (find_inner_part). Length.
+  bool is_outside(double x, double y) const { return listed_box_.is_outside(x, y); }
+  // How far from a border along a period a disk is listed whose path has come out of the box to p; 0 where p is in the
+  // box, or the disk so near the border that all disks there look for images anyway (find_inner_part). Length.
   double depth_beyond_border(const PathSegment& p, Vec2 listed) const {
-    const double near = 2.0 * skin_ * (1.0 - 1e-6);
-    const auto depth = [near](double c, double at, double period) {
-      if ((c >= 0.0 && c < period) || period == 0.0) [[likely]]
-        return 0.0;
-      const double from_border = std::min(at, period - at);
-      return from_border > near ? from_border : 0.0;
-    };
-    const double deep_y = depth(p.y, listed.y, period_y_);
-    return flow_.acts ? deep_y : std::max(depth(p.x, listed.x, period_x_), deep_y);
+    const Vec2 depth = listed_box_.depth_beyond_border({p.x, p.y}, listed, 2.0 * skin_ * (1.0 - 1e-6));
+    return flow_.acts ? depth.y : std::max(depth.x, depth.y);
   }
   // May a disk that is listed here list one at this depth from a border along a period?
   bool may_list_at_depth(Vec2 listed, double depth) const {
@@ -180,7 +169,7 @@ class NeighbourLists {
     const auto is_near = [reach](double at, double period) {
       return std::min(at, period - at) <= reach && period > 0.0;
     };
-    return (!flow_.acts && is_near(listed.x, period_x_)) || is_near(listed.y, period_y_);
+    return (!flow_.acts && is_near(listed.x, listed_box_.period.x)) || is_near(listed.y, listed_box_.period.y);
   }
   // Until it is listed again, disk i looks for images of its neighbours.
   void look_for_images(std::uint32_t i) {
@@ -233,8 +222,8 @@ class NeighbourLists {
     bool inside = true;
     for (const GridLevel& level : grid_.levels) {
       // Which cell a listed position at the edge of one is in, rounding decides.
-      const double cutoff =
-          (distance + flow_.stretch * level.largest_radius) * (1.0 + 1e-9) + std::max(unit_x_, unit_y_);
+      const double cutoff = (distance + flow_.stretch * level.largest_radius) * (1.0 + 1e-9) +
+                            std::max(listed_box_.unit.x, listed_box_.unit.y);
       const Span rows = stored_span(
           level, span_around(position.y, cutoff, box_.height, level.rows_per_length, level.rows, box_.periodic_y()));
       const Span columns =
@@ -259,16 +248,8 @@ class NeighbourLists {
   // Is this place within a distance of disk i's listed position? distance2: its square.
   bool is_within(std::uint32_t i, double x, double y, double distance2) const {
     const Vec2 listed = listed_position(i);
-    const Vec2 d = nearest_image_of({x - listed.x, y - listed.y});
+    const Vec2 d = listed_box_.nearest_image_of({x - listed.x, y - listed.y});
     return d.x * d.x + d.y * d.y < distance2;
-  }
-  // The nearest image of a difference of places, except for rounding.
-  Vec2 nearest_image_of(Vec2 d) const {
-    // To the nearest whole number.
-    constexpr double shift = 0x1.8p52;
-    d.x -= period_x_ * ((d.x * periods_per_x_ + shift) - shift);
-    d.y -= period_y_ * ((d.y * periods_per_y_ + shift) - shift);
-    return d;
   }
   bool stays_listed_in_flow(std::uint32_t i, const PathSegment& path, double from, double until) const;
   double earliest_relist_in_flow(std::uint32_t i, const PathSegment& path, double from, double until) const;
@@ -281,14 +262,12 @@ class NeighbourLists {
   void set_listed_positions(const Disks& disks, const Executor& executor);
   void list_all(const Disks& disks, const Executor& executor);
   void list_block(const Disks& disks, std::size_t block, std::size_t begin, std::size_t end);
-  [[gnu::hot]] FixedPointPosition fixed_point(double x, double y) const;
   void choose_slot_units();
   void prepare_query(const Disks& disks);
   void list_levels();
   SlotPosition slot_position(FixedPointPosition p) const {
     return {static_cast<std::uint16_t>(p.x >> slot_shift_x_), static_cast<std::uint16_t>(p.y >> slot_shift_y_)};
   }
-  Vec2 position_of(FixedPointPosition p) const { return {p.x * unit_x_, p.y * unit_y_}; }
   // A length in units of listed positions, rounded up; at most as much as the whole side needs.
   static std::uint32_t listed_units(double length, double units_per_length) {
     constexpr double most = 0x1p31;
@@ -299,7 +278,7 @@ class NeighbourLists {
     if (!slots_.have_radii()) [[likely]]
       return common_reach_;
     const double length = flow_.stretch * (radius + largest_of_level) + 2.0 * skin_ + search_margin_;
-    return {listed_units(length, units_per_x_), listed_units(length, units_per_y_)};
+    return {listed_units(length, listed_box_.units_per_length.x), listed_units(length, listed_box_.units_per_length.y)};
   }
   // Calls visit(block) for the blocks of cells that are searched for neighbours of a disk listed here.
   template <class Visit>
@@ -360,12 +339,9 @@ class NeighbourLists {
   }
   unsigned find_other_sides(const Disks& disks, std::uint32_t i) const;
 
-  // How far gravity or the flow may bend a path before earliest_relist_time has to be asked again, over the relist
-  // distance.
-  static constexpr double bend_share = 0.1;
-
   EngineMode mode_ = EngineMode::single_queue;
   Domain box_;
+  ListedBox listed_box_;
   CellGrid grid_;
   SortedCells cells_;
   std::vector<std::uint32_t> first_of_tile_;  // and after the last one: how many disks
@@ -378,11 +354,7 @@ class NeighbourLists {
   // Disks that are listed in between list none across a border along a period. In a sheared box that holds of heights
   // alone; places along x go with the flow.
   Vec2 inner_low_, inner_high_;
-  double period_x_ = 0.0, period_y_ = 0.0;            // length; 0: none
-  double periods_per_x_ = 0.0, periods_per_y_ = 0.0;  // 1 / period; 0: none
   double largest_radius_ = 0.0;
-  double unit_x_ = 0.0, unit_y_ = 0.0;            // of a FixedPointPosition; length
-  double units_per_x_ = 0.0, units_per_y_ = 0.0;  // 1 / unit
   double slot_unit_x_ = 0.0, slot_unit_y_ = 0.0;  // of a SlotPosition; length
   double slots_per_length_ = 0.0;                 // 1 / the coarser of the two
   ListQuery query_;                               // what the queries of all disks have in common

@@ -15,6 +15,17 @@ struct RelistDistance {
   double lead2 = 0.0;    // squared: how far ahead of where it is a disk is listed at most
 };
 
+// A disk is listed ahead of where it is by at most this share of the relist distance, since it has to be within that
+// distance, less what gravity may bend its path by: where it is not, it is due at once, for ever.
+inline constexpr double most_lead = 0.8;
+// How far gravity or a flow may bend a path before it is asked again how long the disk stays, over the relist distance.
+inline constexpr double bend_share = 0.1;
+static_assert(most_lead < 1.0 - bend_share);
+
+inline RelistDistance relist_distance_of(double length) {
+  return {length, length * length * (1.0 - 2e-9), most_lead * most_lead * length * length};
+}
+
 // For how long a point that is now at d and moves at velocity v stays within a distance of the origin; 0 if it is not
 // within it now. distance2: the distance squared.
 inline double time_within(double distance2, Vec2 d, Vec2 v) {

@@ -1,0 +1,139 @@
+// How neighbour lists are laid out: the skin, the cells that disks are sorted into, tiles and regions of them, and
+// which disks have no neighbours across a border.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "parallel/cells/tiled_grid.hpp"
+#include "parallel/exact/neighbour_lists.hpp"
+
+namespace carom {
+
+namespace {
+
+// Twice the skin and a diameter make this many mean spacings: about eleven neighbours. Longer lists take longer to go
+// through, shorter ones have to be renewed more often, the sooner the less dense the system is: with one queue the
+// fewest instructions a collision are at 2.05 to 2.2, 1.8 to 1.9 and 1.72 spacings at packing fractions 0.2, 0.5 and
+// 0.7 (10^4 disks), at 1.8 to 2.1 from 0.1 down to 0.005 (2000 disks), where disks fly further than across a list.
+constexpr double region_cutoff = 1.85;
+
+double cutoff_in_spacings(double packing_fraction) {
+  return std::min(2.35 - 0.9 * packing_fraction, 1.95 + 1.1 * packing_fraction);
+}
+
+// Where disks crowd most cells are empty: with many disks, at most so many times as many cells are made.
+constexpr double most_crowding_of_many = 8.0;
+// In very dense systems the skin is at least this share of a mean diameter.
+constexpr double least_skin = 0.08;
+// The most, of a period. A path that ends within the skin of its listed position is taken to have stayed there
+// (stays_listed), so it must not come to an image of that place from the one before: a path covers a quarter of a
+// period at most (longest_flight), in the frame of a flow less than 0.7.
+constexpr double most_skin = 0.37;
+constexpr double most_skin_in_flow = 0.15;
+// The least skin in units of listed positions, so that their rounding does not matter.
+constexpr double least_units = 1024.0;
+
+}  // namespace
+
+// crowded: how much denser than in the mean it is around the disks (crowding.hpp).
+void NeighbourLists::choose_skin(const Disks& d, const ListLayout& layout, double crowded) {
+  const double n = static_cast<double>(d.size());
+  double radius = 0.0;
+  double area = 0.0;
+  for (const double r : d.radius) {
+    radius += r / n;
+    area += std::numbers::pi * r * r;
+  }
+  if (d.radius.empty()) {
+    radius = d.common_radius;
+    area = n * std::numbers::pi * radius * radius;
+  }
+  // The share of the box that these disks have, if the others have theirs.
+  const double share = layout.disks_of_box > 0 ? n / static_cast<double>(layout.disks_of_box) : 1.0;
+  const double space = share * box_.width * box_.height;
+  const double packing_fraction = std::min(crowded * area / space, 1.0);
+  const double cutoff = mode_ == EngineMode::regions ? region_cutoff : cutoff_in_spacings(packing_fraction);
+  skin_ = std::max({0.5 * (cutoff * std::sqrt(space / (crowded * n)) - 2.0 * radius), least_skin * 2.0 * radius,
+                    least_units * std::max(listed_box_.unit.x, listed_box_.unit.y)});
+  const double most = flow_.acts ? most_skin_in_flow : most_skin;
+  if (box_.periodic_x()) skin_ = std::min(skin_, most * box_.width);
+  if (box_.periodic_y()) skin_ = std::min(skin_, most * box_.height);
+  near_border_ = relist_distance_of(layout.relist_share * skin_);
+  elsewhere_ = relist_distance_of(skin_);
+  elsewhere_.lead2 = near_border_.lead2;
+}
+
+void NeighbourLists::sort(Disks& d, const ListLayout& layout, double crowded, const Executor& executor) {
+  const double largest = largest_radius_;
+  std::vector<std::size_t> count = count_classes(d, largest);
+  if (layout.disks_of_box > 0) {
+    // Cells are those of the whole box.
+    const double others =
+        static_cast<double>(layout.disks_of_box) / std::max<double>(1.0, static_cast<double>(d.size()));
+    for (std::size_t& c : count) c = static_cast<std::size_t>(others * static_cast<double>(c));
+  }
+  if (layout.disks_per_tile > 0) {
+    make_tiled_grid(box_, largest, count, layout.disks_per_tile, layout.regions, grid_);
+    if (layout.disks_of_box > 0) keep_tiles_between(box_, layout.low, layout.high, grid_);
+  } else {
+    // Half of this many disks a cell, which has room for eight: lists extend over several cells, and each costs as much
+    // to visit, empty or not. A few less in a dilute gas, whose disks lie less evenly, so that more cells overflow; a
+    // few more where they are many, for memory's sake.
+    const bool are_many = std::max(d.size(), layout.disks_of_box) > disks_of_much_memory;
+    const bool is_dilute = skin_ > 4.0 * largest;
+    const std::size_t twice_a_cell = (is_dilute ? 6U : 8U) + (are_many ? 2U : 0U);
+    for (std::size_t& c : count) c = c / twice_a_cell + 1;
+    make_grid(box_, largest, count, grid_, grid_margin, are_many ? std::min(crowded, most_crowding_of_many) : crowded);
+    if (layout.low < layout.high) store_rows_between(box_, layout.low, layout.high, grid_);
+  }
+  sort_into_cells(d, grid_, executor, cells_);
+}
+
+void NeighbourLists::find_tiles(std::size_t disks) {
+  first_of_tile_.assign(std::size_t{grid_.tiles} + 1, static_cast<std::uint32_t>(disks));
+  first_of_tile_[0] = 0;
+  for (std::uint32_t tile = 1; tile < grid_.tiles; ++tile) {
+    first_of_tile_[tile] = cells_.start[std::size_t{tile} * grid_.tile_keys];
+  }
+}
+
+// How deep the core lies within the region: a disk is relisted within the relist distance of its listed position, at a
+// place that is ahead of it by less than that, and its new list reaches no further than lists do from there.
+ListRegion NeighbourLists::region_of_tiles(std::uint32_t first, std::uint32_t last) const {
+  ListRegion region{first * grid_.tile_keys, last * grid_.tile_keys, first_disk_of(first), first_disk_of(last)};
+  const double side = layers_along_x_ ? box_.width : box_.height;
+  const double unit = layers_along_x_ ? listed_box_.unit.x : listed_box_.unit.y;
+  const double tiles_to_length = side / static_cast<double>(grid_.tiles);
+  const double depth = 2.0 * largest_radius_ + 3.0 * skin_ + search_margin_ + most_lead * near_border_.length;
+  const double from = first * tiles_to_length + depth;
+  const double size = last * tiles_to_length - depth - from;
+  region.core_is_of_x = layers_along_x_;
+  region.core = region.core_size = 0;
+  if (!(size > 0.0)) return region;
+  // Both are less than the side, so that they fit.
+  region.core = static_cast<std::uint32_t>(from / unit);
+  region.core_size = static_cast<std::uint32_t>(size / unit);
+  return region;
+}
+
+void NeighbourLists::set_core_between(double low, double high, ListRegion& region) const {
+  constexpr double most = 0xfffffffeU;
+  region.core_is_of_x = false;
+  region.core = static_cast<std::uint32_t>(std::clamp(low / listed_box_.unit.y, 0.0, most));
+  region.core_size = static_cast<std::uint32_t>(std::clamp((high - low) / listed_box_.unit.y, 0.0, most));
+}
+
+// Disks that list each other are within their contact distance and 4 skins of each other while they stay listed, and
+// each is within the skin of where it is listed.
+void NeighbourLists::find_inner_part() {
+  const double reach = (2.0 * flow_.stretch * largest_radius_ + 4.0 * skin_ + search_margin_) * (1.0 + 1e-6);
+  const double depth = mode_ == EngineMode::all_pairs ? never : reach;
+  const auto part = [](double side, bool periodic, double away, double& low, double& high) {
+    low = periodic ? away : -never;
+    high = periodic ? side - away : never;
+  };
+  part(box_.width, box_.periodic_x(), flow_.acts ? never : depth, inner_low_.x, inner_high_.x);
+  part(box_.height, box_.periodic_y(), depth, inner_low_.y, inner_high_.y);
+}
+
+}  // namespace carom

@@ -1,0 +1,56 @@
+// How long disks stay where neighbour lists have them. In a sheared box: flow_lists.cpp.
+#include <algorithm>
+#include <cmath>
+
+#include "core/physics/boundary.hpp"
+#include "parallel/exact/neighbour_lists.hpp"
+
+namespace carom {
+
+double NeighbourLists::earliest_relist_time(std::uint32_t i, const PathSegment& path, double from, double until,
+                                            const Gravity& gravity, const RelistDistance& relist) const {
+  if (mode_ == EngineMode::all_pairs) return never;
+  if (flow_.acts) return earliest_relist_in_flow(i, path, from, until);
+  const PathSegment p = carried_to(path, from, gravity);
+  const double g = gravity.size;
+  const Vec2 position = listed_position(i);
+  const auto [dx, dy] = nearest_image_at_rest({p.x - position.x, p.y - position.y}, box_);
+  double room = relist.length * (1.0 - 1e-9);
+  double ahead = never;
+  if (g > 0.0) {
+    // The straight path, less what gravity can bend it by in that time.
+    ahead = std::max(std::sqrt(2.0 * bend_share * relist.length / g), until - from);
+    room -= 0.5 * g * ahead * ahead;
+    if (!(room > 0.0)) return from;
+  }
+  return from + std::min(time_within(room * room, {dx, dy}, {p.vx, p.vy}), ahead);
+}
+
+// A straight path whose ends are in a circle is in it; gravity bends it by g t^2 / 8 at most, so that it has to begin
+// and end further inside.
+bool NeighbourLists::stays_listed_falling(std::uint32_t i, const PathSegment& path, double from, double until,
+                                          const Gravity& g, const RelistDistance& relist) const {
+  if (mode_ == EngineMode::all_pairs) return true;
+  const double room = relist.length * (1.0 - 1e-9) - 0.125 * g.size * (until - from) * (until - from);
+  const auto inside = [&](double t) {
+    const double s = t - path.start;
+    return is_within(i, path.x + (path.vx - 0.5 * g.left * s) * s, path.y + (path.vy - 0.5 * g.down * s) * s,
+                     room * room);
+  };
+  return room > 0.0 && inside(until) && inside(from);
+}
+
+// Listed disks are within their contact distance and 4 skins of each other, carried back to the window's start by two
+// flights more; where that is less than half a period, the nearest image is the right one.
+double NeighbourLists::safe_speed2(double length, double g) const {
+  double period = HUGE_VAL;
+  if (box_.periodic_x()) period = std::min(period, box_.width);
+  if (box_.periodic_y()) period = std::min(period, box_.height);
+  if (period == HUGE_VAL) return HUGE_VAL;
+  if (mode_ == EngineMode::all_pairs) return -1.0;
+  const double listed = flow_.stretch * (2.0 * flow_.stretch * largest_radius_ + 4.0 * skin_ + search_margin_);
+  const double flight = 0.5 * (0.49 * period - listed) - g * length * length;
+  return flight > 0.0 ? (flight / length) * (flight / length) : -1.0;
+}
+
+}  // namespace carom

@@ -1,0 +1,61 @@
+// The box as listed positions see it: whole numbers along each side, which wrap round at the end of a period.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "core/disks/domain.hpp"
+#include "parallel/exact/list_row.hpp"
+
+namespace carom {
+
+struct ListedBox {
+  ListedBox() = default;
+  explicit ListedBox(const Domain& box)
+      : unit{box.width / (box.periodic_x() ? 2.0 * two_to_31 : two_to_31),
+             box.height / (box.periodic_y() ? 2.0 * two_to_31 : two_to_31)},
+        units_per_length{1.0 / unit.x, 1.0 / unit.y},
+        period{box.periodic_x() ? box.width : 0.0, box.periodic_y() ? box.height : 0.0},
+        periods_per_length{box.periodic_x() ? 1.0 / box.width : 0.0, box.periodic_y() ? 1.0 / box.height : 0.0} {}
+
+  Vec2 unit;  // of a FixedPointPosition; length
+  Vec2 units_per_length;
+  Vec2 period;              // length; 0: none
+  Vec2 periods_per_length;  // 0: none
+
+  Vec2 position_of(FixedPointPosition p) const { return {p.x * unit.x, p.y * unit.y}; }
+  // Along a period the whole number wraps by itself; between walls a rounding error may lead outside.
+  [[gnu::hot]] FixedPointPosition fixed_point(double x, double y) const;
+
+  // The nearest image of a difference of places, except for rounding.
+  Vec2 nearest_image_of(Vec2 d) const {
+    // To the nearest whole number.
+    constexpr double shift = 0x1.8p52;
+    d.x -= period.x * ((d.x * periods_per_length.x + shift) - shift);
+    d.y -= period.y * ((d.y * periods_per_length.y + shift) - shift);
+    return d;
+  }
+
+  // Is this place out of the box along a period?
+  bool is_outside(double x, double y) const {
+    return (x < 0.0 && period.x > 0.0) || (y < 0.0 && period.y > 0.0) || (x >= period.x && period.x > 0.0) ||
+           (y >= period.y && period.y > 0.0);
+  }
+  // A path may leave the box along a period and lead far into it from the other side. Its coordinates are then not
+  // those of the place where the disk is listed, so that disks there must look for images. How far from the border
+  // along each side a disk is listed whose path has come to p; 0 where p is in the box, or the disk nearer than `near`.
+  Vec2 depth_beyond_border(Vec2 p, Vec2 listed, double near) const {
+    const auto depth = [near](double c, double at, double length) {
+      if ((c >= 0.0 && c < length) || length == 0.0) [[likely]]
+        return 0.0;
+      const double from_border = std::min(at, length - at);
+      return from_border > near ? from_border : 0.0;
+    };
+    return {depth(p.x, listed.x, period.x), depth(p.y, listed.y, period.y)};
+  }
+
+ private:
+  static constexpr double two_to_31 = 2147483648.0;
+};
+
+}  // namespace carom
