@@ -12,6 +12,7 @@
 #include "core/step/engine.hpp"
 #include "parallel/simulation.hpp"
 #include "tests/support/feature_scenes.hpp"
+#include "tests/support/same_counters.hpp"
 #include "tests/support/thread_counts.hpp"
 
 namespace carom {
@@ -47,17 +48,7 @@ void expect_same(const Trace& a, const Trace& b) {
   ASSERT_EQ(a.hashes, b.hashes);
   EXPECT_EQ(a.warnings, b.warnings);
   EXPECT_EQ(a.error, b.error);
-  EXPECT_EQ(a.counters.collisions, b.counters.collisions);
-  EXPECT_EQ(a.counters.wall_collisions, b.counters.wall_collisions);
-  EXPECT_EQ(a.counters.removed, b.counters.removed);
-  EXPECT_EQ(a.counters.emitted, b.counters.emitted);
-  EXPECT_EQ(a.counters.waiting, b.counters.waiting);
-  EXPECT_EQ(a.counters.virial, b.counters.virial);
-  EXPECT_EQ(a.counters.thermostat_heat, b.counters.thermostat_heat);
-  for (std::size_t k = 0; k < 4; ++k) {
-    EXPECT_EQ(a.counters.wall_impulse[k], b.counters.wall_impulse[k]);
-    EXPECT_EQ(a.counters.side_energy[k], b.counters.side_energy[k]);
-  }
+  test::expect_same_counters(a.counters, b.counters);
 }
 
 class ParallelBits : public ::testing::TestWithParam<std::tuple<const char*, const char*>> {};

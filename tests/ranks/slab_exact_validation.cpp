@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/same_counters.hpp"
 #include "tests/support/slab_support.hpp"
 
 namespace carom {
@@ -142,9 +143,7 @@ bool expect_truth(const Scene& scene, const State& start, const Truth& truth, co
     if (ranks.any(wrong > 0)) break;
   }
   EXPECT_EQ(engine->state().time, truth.end.time);
-  EXPECT_EQ(engine->state().counters.collisions, truth.end.counters.collisions);
-  EXPECT_EQ(engine->state().counters.wall_collisions, truth.end.counters.wall_collisions);
-  EXPECT_EQ(engine->state().counters.virial, truth.end.counters.virial);
+  test::expect_same_counters(truth.end.counters, engine->state().counters);
   return on_slabs;
 }
 

@@ -6,9 +6,11 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/disks/disk_columns.hpp"
 #include "core/start/initial_state.hpp"
 #include "tests/support/other_units.hpp"
 #include "tests/support/reference_run.hpp"
+#include "tests/support/same_counters.hpp"
 
 namespace carom::test {
 
@@ -16,29 +18,12 @@ inline const std::vector<Units> other_units{{0x1p20, 1, 1},  {0x1p-20, 1, 1}, {1
                                             {1, 0x1p-20, 1}, {1, 1, 0x1p20},  {1, 1, 0x1p-20}};
 
 inline void expect_equal(const State& a, const State& b) {
-  EXPECT_EQ(a.disks.id, b.disks.id);
-  EXPECT_EQ(a.disks.x, b.disks.x);
-  EXPECT_EQ(a.disks.y, b.disks.y);
-  EXPECT_EQ(a.disks.vx, b.disks.vx);
-  EXPECT_EQ(a.disks.vy, b.disks.vy);
-  EXPECT_EQ(a.disks.radius, b.disks.radius);
-  EXPECT_EQ(a.disks.mass, b.disks.mass);
-  EXPECT_EQ(a.disks.spin, b.disks.spin);
+  for_each_column(a.disks, b.disks, [](const auto& one, const auto& other) { EXPECT_EQ(one, other); });
   EXPECT_EQ(a.disks.common_radius, b.disks.common_radius);
   EXPECT_EQ(a.disks.common_mass, b.disks.common_mass);
+  EXPECT_EQ(a.disks.inertia, b.disks.inertia);
   EXPECT_EQ(a.time, b.time);
-  EXPECT_EQ(a.counters.steps, b.counters.steps);
-  EXPECT_EQ(a.counters.collisions, b.counters.collisions);
-  EXPECT_EQ(a.counters.wall_collisions, b.counters.wall_collisions);
-  EXPECT_EQ(a.counters.removed, b.counters.removed);
-  EXPECT_EQ(a.counters.emitted, b.counters.emitted);
-  EXPECT_EQ(a.counters.disk_time, b.counters.disk_time);
-  EXPECT_EQ(a.counters.virial, b.counters.virial);
-  EXPECT_EQ(a.counters.emitted_energy, b.counters.emitted_energy);
-  for (int side = 0; side < 4; ++side) {
-    EXPECT_EQ(a.counters.wall_impulse[side], b.counters.wall_impulse[side]);
-    EXPECT_EQ(a.counters.side_energy[side], b.counters.side_energy[side]);
-  }
+  expect_same_counters(a.counters, b.counters);
   EXPECT_EQ(a.thermal_hits, b.thermal_hits);
   ASSERT_EQ(a.obstacles.size(), b.obstacles.size());
   for (std::size_t k = 0; k < a.obstacles.size(); ++k) {

@@ -21,6 +21,7 @@
 #include "parallel/slabs/slab_pairwise.hpp"
 #include "parallel/threads/executor.hpp"
 #include "tests/support/feature_scenes.hpp"
+#include "tests/support/same_counters.hpp"
 
 namespace carom::test {
 
@@ -113,25 +114,7 @@ inline void expect_same(const SlabTrace& expected, const SlabTrace& trace) {
   EXPECT_EQ(expected.warnings, trace.warnings);
   expect_same(expected.worst_disks, trace.worst_disks);
   expect_same(expected.worst_wall, trace.worst_wall);
-  EXPECT_EQ(expected.counters.steps, trace.counters.steps);
-  EXPECT_EQ(expected.counters.collisions, trace.counters.collisions);
-  EXPECT_EQ(expected.counters.wall_collisions, trace.counters.wall_collisions);
-  EXPECT_EQ(expected.counters.virial, trace.counters.virial);
-  EXPECT_EQ(expected.counters.removed, trace.counters.removed);
-  EXPECT_EQ(expected.counters.thermostat_heat, trace.counters.thermostat_heat);
-  EXPECT_EQ(expected.counters.emitted, trace.counters.emitted);
-  EXPECT_EQ(expected.counters.emitted_energy, trace.counters.emitted_energy);
-  EXPECT_EQ(expected.counters.waiting, trace.counters.waiting);
-  EXPECT_EQ(expected.counters.disk_time, trace.counters.disk_time);
-  EXPECT_EQ(expected.counters.shear_virial, trace.counters.shear_virial);
-  EXPECT_EQ(expected.counters.shear_work, trace.counters.shear_work);
-  EXPECT_EQ(expected.counters.wall_work, trace.counters.wall_work);
-  EXPECT_EQ(expected.counters.wall_push[0], trace.counters.wall_push[0]);
-  EXPECT_EQ(expected.counters.wall_push[1], trace.counters.wall_push[1]);
-  for (std::size_t k = 0; k < 4; ++k) {
-    EXPECT_EQ(expected.counters.wall_impulse[k], trace.counters.wall_impulse[k]);
-    EXPECT_EQ(expected.counters.side_energy[k], trace.counters.side_energy[k]);
-  }
+  expect_same_counters(expected.counters, trace.counters);
 }
 
 // The scenes with all combinations of what slabs can have, for one kind of sides. Under gravity disks settle, or, in
