@@ -13,6 +13,7 @@
 #include "core/scene/disk_group.hpp"
 #include "core/scene/scene_names.hpp"
 #include "core/step/step_clock.hpp"
+#include "core/step/step_start.hpp"
 #include "core/step/thermostat.hpp"
 
 namespace carom {
@@ -161,7 +162,7 @@ std::string outputs_text(const Scene& scene, const Findings& f) {
 }
 
 // The parts that make up the cost, those that matter.
-std::string cost_text(const Findings& f) {
+std::string cost_text(const Scene& scene, const Findings& f) {
   if (!f.stopped.empty()) return fmt::format("stops early: {}", f.stopped);
   std::string text = fmt::format("about {} on this machine, from a trial: steps {}", duration_text(f.seconds()),
                                  duration_text(f.step_seconds));
@@ -172,7 +173,10 @@ std::string cost_text(const Findings& f) {
   part("frames and movie", f.outputs.files_s);
   part("analysis", f.outputs.analysis_s);
   part("plots", f.outputs.plots_s);
-  return text;
+  // The trial sees the disks fall.
+  const bool piles_up = scene.run.method == Method::pairwise && settles(scene);
+  return piles_up ? text + "; once disks lie in a pile, a step takes 5 to 50 times as long, the longer the taller it is"
+                  : text;
 }
 
 std::string offer_text(const MethodOffer& offer, bool best) {
@@ -330,7 +334,7 @@ std::string main_text(const Scene& scene, const Findings& f) {
                              : f.population.end > f.population.start ? ", as measured, with what sources add"
                                                                      : ", as measured"));
   if (f.ranks) line("ranks", ranks_text(*f.ranks));
-  line("cost", tried ? cost_text(f) : "not tried either");
+  line("cost", tried ? cost_text(scene, f) : "not tried either");
   for (const std::string& trouble : f.troubles) line("trouble", trouble);
   return text;
 }

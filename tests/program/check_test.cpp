@@ -144,6 +144,8 @@ TEST_F(Check, APileAsksForAShorterStepThanItsSpeedsDo) {
   const Json j = check("fall.toml --method pairwise --dt 0.2 --set disks.0.positions='[[5.0, 0.5]]'");
   EXPECT_NEAR(j["safe_dt"].get<double>(), 0.1, 1e-9);
   EXPECT_THAT(troubles(j), HasSubstr("in a pile a disk falls by g dt^2 before it is held"));
+  EXPECT_THAT(carom("check fall.toml --dt 0.1 --t-end 1 --method pairwise").out, HasSubstr("lie in a pile"));
+  EXPECT_THAT(carom("check fall.toml --dt 0.1 --t-end 1 --method exact").out, Not(HasSubstr("lie in a pile")));
 }
 
 TEST_F(LongCheck, SourcesAddDisksSpeedsAndMemory) {
