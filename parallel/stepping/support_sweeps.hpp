@@ -206,8 +206,9 @@ struct PatchSweeps {
   SweepInput input() const {
     SettleLists& settle = lists.settle;
     SupportSet& set = settle.supports;
-    return {settle.batches.batch.data(), set.impulse.data(), set.last.data(),      set.before.data(), set.ahead.data(),
-            set.contact_distance.data(), &set.v.data()->x,   &set.last_v.data()->x};
+    const auto numbers = [](std::vector<Vec2>& vectors) { return vectors.empty() ? nullptr : &vectors.front().x; };
+    return {settle.batches.batch.data(), set.impulse.data(), set.last.data(),    set.before.data(), set.ahead.data(),
+            set.contact_distance.data(), numbers(set.v),     numbers(set.last_v)};
   }
 };
 
