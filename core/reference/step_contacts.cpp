@@ -100,10 +100,9 @@ void bear_loads(const View& d, State& state, const StepRules& rules, const std::
   for (std::size_t k = 0; k < loads.size(); ++k) {
     if (rules.round == 0) shift_by_load(d, supports[k], set.impulse[k], rules.dt);
     tally.add_load(loads[k].id2, supports[k], borne(set, k, supports[k]), rules.box);
-    loads[k].force = set.impulse[k];
+    loads[k].force = set.impulse[k] / rules.dt;  // may vanish, where the impulse is hardly a number and the step long
   }
   std::erase_if(loads, [](const ContactLoad& load) { return load.force == 0.0; });
-  for (ContactLoad& load : loads) load.force /= rules.dt;
   state.loads = std::move(loads);
 }
 

@@ -18,9 +18,8 @@ struct ContactLists;
 
 // Lists of the settling phase, kept so that a warm step allocates nothing.
 struct SettleLists {
-  IdOrder pairs;  // the step's contacts
-  // Of each pair in order of ids: the force in the step before, then the impulse in this one.
-  std::vector<double> borne;
+  IdOrder pairs;              // the step's contacts
+  std::vector<double> borne;  // the force on each pair in order of ids: of the step, or round, before, then of this one
   std::vector<IdPair> placed;          // the pairs in the order of the patches, so that sweeps read them in a row,
   std::vector<unsigned char> holding;  // and whether each bears load
   SupportBatches batches;

@@ -12,7 +12,7 @@ void resize_supports(SupportSet& set, const SupportBatches& batches, std::size_t
   for (std::size_t q = 0; q < patches; ++q) set.v[SupportBatches::spare(disks, q)] = {};
 }
 
-void keep_loads(State& state, const StepRules& rules, const Executor& executor, ContactLists& lists) {
+void keep_loads(State& state, const Executor& executor, ContactLists& lists) {
   SettleLists& settle = lists.settle;
   const std::size_t n = settle.borne.size();
   assign_amply(lists.offsets, executor.blocks(n, contact_block) + 1, std::size_t{0});
@@ -27,7 +27,7 @@ void keep_loads(State& state, const StepRules& rules, const Executor& executor, 
     std::size_t at = lists.offsets[b];
     for (std::size_t k = begin; k < end; ++k) {
       const IdPair& p = settle.pairs.sorted[k];
-      if (settle.borne[k] > 0.0) state.loads[at++] = {p.id1(), p.id2(), settle.borne[k] / rules.dt};
+      if (settle.borne[k] > 0.0) state.loads[at++] = {p.id1(), p.id2(), settle.borne[k]};
     }
   });
 }

@@ -212,7 +212,7 @@ struct PatchSweeps {
   }
 };
 
-// What the loads do to the disks, and their impulses back to the pairs (settle.borne, settle.holding).
+// What the loads do to the disks, and their forces back to the pairs (settle.borne, settle.holding).
 template <class View, class Others>
 void take_up_loads(const View& d, const StepRules& rules, const Executor& executor, ContactLists& lists,
                    ImpactTally& tally, Others&& others) {
@@ -225,15 +225,16 @@ void take_up_loads(const View& d, const StepRules& rules, const Executor& execut
       const double impulse = settle.supports.impulse[slot];
       if (rules.round == 0) shift_by_load(d, support, impulse, rules.dt);
       lists.tallies[q].add_load(settle.placed[at].id2(), support, borne(settle.supports, slot, support), rules.box);
-      settle.borne[patches.order[at]] = impulse;
-      settle.holding[at] = impulse > 0.0 ? 1 : 0;
+      const double force = impulse / rules.dt;  // may vanish, where the impulse is hardly a number and the step long
+      settle.borne[patches.order[at]] = force;
+      settle.holding[at] = force > 0.0 ? 1 : 0;
     });
   });
   add_tallies(lists, others, tally);
 }
 
 // The loads of the step in order of ids, from settle.borne.
-void keep_loads(State& state, const StepRules& rules, const Executor& executor, ContactLists& lists);
+void keep_loads(State& state, const Executor& executor, ContactLists& lists);
 
 // Solves the supports among the step's pairs; their loads go to state.loads, their impulses to the tally.
 // Precondition: settle.borne has what each pair bore in the step, or the round, before.
@@ -257,7 +258,7 @@ void bear_loads(const View& d, State& state, const StepRules& rules, const Execu
     d.vy[i] = set.v[i].y;
   });
   take_up_loads(d, rules, executor, lists, tally, others);
-  keep_loads(state, rules, executor, lists);
+  keep_loads(state, executor, lists);
 }
 
 }  // namespace carom

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/measure/invariants.hpp"
+#include "core/step/engine.hpp"
+#include "parallel/simulation.hpp"
 #include "tests/support/disks_by_hand.hpp"
 #include "tests/support/reference_run.hpp"
 
@@ -132,6 +135,27 @@ TEST(Pile, TwoRowsBetweenWalls) {
     if (load.id2 == 0xfffffff0U + static_cast<DiskId>(Side::bottom)) floor += load.force;
   }
   EXPECT_NEAR(floor / (7.0 * 0.5), 1.0, 1e-2);
+}
+
+// A load whose force is too small for a double, as the step is longer than the impulse is large, is none: the engine
+// pushed that disk off the side as one that bears, and the reference as one that does not.
+TEST(Pile, LoadWhoseForceVanishesIsNone) {
+  Scene scene = pile_scene(0.5, 4.0, 8.0);
+  scene.physics.gravity = 1e-6;
+  const double slow = std::numeric_limits<double>::denorm_min();
+  const State start = test::state_of(scene, {{1.0 - 1e-4, 1.0, -slow, 0.0, 1.0, 1.0}});
+  const auto reference = make_reference_engine(scene, start);
+  const auto engine = make_parallel_engine(scene, start, {1, 1});
+  for (int step = 0; step < 2; ++step) {
+    reference->step();
+    engine->step();
+    EXPECT_EQ(engine->state().disks.x[0], reference->state().disks.x[0]);
+    EXPECT_EQ(engine->state().disks.x[0], 1.0);
+    for (const Engine* either : {reference.get(), engine.get()}) {
+      ASSERT_EQ(either->state().loads.size(), 1U);
+      EXPECT_EQ(either->state().loads[0].id2, 0xfffffff0U + static_cast<DiskId>(Side::bottom));
+    }
+  }
 }
 
 }  // namespace
