@@ -12,6 +12,7 @@
 #include "core/load/settling_warning.hpp"
 #include "core/load/wall_warnings.hpp"
 #include "core/scene/scene_names.hpp"
+#include "core/scene/scene_output.hpp"
 #include "core/scene/scene_range_check.hpp"
 #include "core/scene/scene_ranges.hpp"
 #include "core/scene/scene_roughness.hpp"
@@ -391,6 +392,7 @@ double check_box(const Scene& scene, const PlaceOfKey& place) {
   check_axis(scene.box.height, scene.box.periodic_y(), largest, "height", place);
   check_resolution(scene, smallest, place);
   check_thermal_sides(scene, lightest, place);
+  check_selection(scene, place);
   return largest;
 }
 

@@ -67,6 +67,17 @@ Selection read_selection(const TableReader& output, const Scene& scene) {
   return select;
 }
 
+void check_selection(const Scene& scene, const PlaceOfKey& place) {
+  const Selection& select = scene.output.select;
+  if (!select.by_region) return;
+  const Domain& box = scene.box;
+  if (select.low.x < box.width && select.high.x > 0.0 && select.low.y < box.height && select.high.y > 0.0) return;
+  fail_input(place("output.select"),
+             fmt::format("the rectangle from ({}, {}) to ({}, {}) is outside the box of {} x {}", select.low.x,
+                         select.low.y, select.high.x, select.high.y, short_number(box.width), short_number(box.height)),
+             "expected one that has room in common with the box");
+}
+
 bool read_single_precision(const TableReader& output) {
   const std::size_t precision = output.choice_or_initial("precision");
   if (output.find("precision") != nullptr && output.text("trajectory").value_or("none") != "h5md") {

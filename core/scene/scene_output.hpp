@@ -1,6 +1,7 @@
 // Reading which disks a trajectory shows, how precisely, and how movies look.
 #pragma once
 
+#include "core/scene/place_of_key.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/scene_reader.hpp"
 
@@ -10,6 +11,9 @@ namespace carom {
 // [x0, y0, x1, y1]; all disks where it is absent. scene: groups and sources are known. Throws InputError for anything
 // else, and where no trajectory is written.
 Selection read_selection(const TableReader& output, const Scene& scene);
+
+// Throws InputError where the rectangle selected has no room in common with the box, whose size is known here.
+void check_selection(const Scene& scene, const PlaceOfKey& place);
 
 // Whether "precision" is "single". Throws InputError unless it is absent or trajectory is "h5md".
 bool read_single_precision(const TableReader& output);

@@ -242,5 +242,25 @@ const Fault out_of_range[] = {
 };
 INSTANTIATE_TEST_SUITE_P(OutOfRange, BadScene, testing::ValuesIn(out_of_range), name_of);
 
+// A trajectory of a rectangle in which no disk can be.
+const Fault selected[] = {
+    {"Above", "[run]", "[output]\ntrajectory = \"xyz\"\nselect = [0.0, 10.0, 20.0, 12.0]\n[run]", "22: output.select: ",
+     "the rectangle from (0, 10) to (20, 12) is outside the box of 20 x 10; expected one that has room in common"},
+    {"Below", "[run]", "[output]\ntrajectory = \"xyz\"\nselect = [0.0, -3.0, 20.0, 0.0]\n[run]",
+     "22: output.select: ", "is outside the box"},
+    {"Right", "[run]", "[output]\ntrajectory = \"h5md\"\nselect = [50.0, 0.0, 60.0, 9.0]\n[run]",
+     "22: output.select: ", "is outside the box"},
+    {"Left", "[run]", "[output]\ntrajectory = \"xyz\"\nselect = [-5.0, 0.0, -1.0, 9.0]\n[run]",
+     "22: output.select: ", "is outside the box"},
+    {"Empty", "[run]", "[output]\ntrajectory = \"xyz\"\nselect = [3.0, 0.0, 3.0, 9.0]\n[run]",
+     "22: output.select: ", "its corners are not in order"},
+};
+INSTANTIATE_TEST_SUITE_P(Selected, BadScene, testing::ValuesIn(selected), name_of);
+
+TEST(SelectedRectangle, MayStickOutOfTheBox) {
+  const std::string output = "[output]\ntrajectory = \"xyz\"\nselect = [-5.0, 9.9, 30.0, 40.0]\n[run]";
+  EXPECT_EQ(test::complaint(test::replaced(test::sound_scene, "[run]", output)), "");
+}
+
 }  // namespace
 }  // namespace carom
