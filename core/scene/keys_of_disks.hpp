@@ -108,7 +108,8 @@ inline constexpr SceneKey keys[] = {
      R"(positions = { frame = "out/melt" })"},
     {"frame", "index", ordinal, none, "the last", "Which frame, counted from 1.",
      R"(positions = { frame = "out/melt", index = 5 })"},
-    {"frame", "time", number, Dimension::time, "the last", "The frame nearest to this time.",
+    {"frame", "time", number, Dimension::time, "the last",
+     "The frame nearest to this time, which lies between those of the first and the last frame.",
      R"(positions = { frame = "out/melt", time = 2.5 })"},
 
     {"growth", "slowness", positive, none, "1",

@@ -37,6 +37,17 @@ std::optional<Scene> scene_of(const std::string& trajectory, const TrajectoryFra
   return {};
 }
 
+// Times of frames are sums and products of steps: 0.3 may be 0.30000000000000004.
+constexpr double frame_time_slack = 1e-9;
+
+// A time before the first frame or after the last has none that was meant.
+void check_time(const std::string& path, double asked, double first, double last) {
+  const double slack = frame_time_slack * std::abs(asked);
+  if (asked >= first - slack && asked <= last + slack) return;
+  fail_input(path, fmt::format("has no frame at t = {:g}", asked),
+             fmt::format("expected a time from {:g} to {:g}, that of the last frame", first, last));
+}
+
 // Absent where nothing tells. A shear takes a box that is periodic both ways, and such a run without one counts rounds.
 std::optional<double> shear_rate_of(const std::optional<Scene>& scene, const TrajectoryFrame& frame) {
   if (!frame.box.periodic_x() || !frame.box.periodic_y() || !frame.image_x.empty()) return 0.0;
@@ -50,8 +61,10 @@ SceneFrame read_scene_frame(const FrameAsked& asked) {
   const auto reader = open_trajectory(path);
   TrajectoryFrame frame, chosen;
   Count frames = 0;
+  double first = 0.0, last = 0.0;
   while (!(asked.index && frames == *asked.index) && reader->read(frame)) {
-    ++frames;
+    if (++frames == 1) first = frame.time;
+    last = frame.time;
     const bool nearer = asked.time && std::abs(frame.time - *asked.time) >= std::abs(chosen.time - *asked.time);
     if (frames == 1 || !nearer) std::swap(chosen, frame);
   }
@@ -59,6 +72,7 @@ SceneFrame read_scene_frame(const FrameAsked& asked) {
   if (asked.index && frames < *asked.index) {
     fail_input(path, fmt::format("there is no frame {}", *asked.index), fmt::format("expected 1 to {}", frames));
   }
+  if (asked.time) check_time(path, *asked.time, first, last);
   SceneFrame result;
   if (asked.velocities) {
     const std::optional<Scene> scene = scene_of(path, chosen);

@@ -55,7 +55,7 @@ TEST_F(SceneFrames, IsTheOneAskedFor) {
   EXPECT_EQ(x_of({file, {}, 1.2}), 2.0);
   EXPECT_EQ(x_of({file, {}, 2.9}), 3.0);
   EXPECT_EQ(x_of({file, {}, 3.0}), 3.0) << "of two that are as near the earlier";
-  EXPECT_EQ(x_of({file, {}, 9.0}), 4.0);
+  EXPECT_EQ(x_of({file, {}, 4.0 + 1e-12}), 4.0) << "but for rounding";
   EXPECT_EQ(x_of({folder_.path().string(), 2, {}}), 2.0) << "in the folder of a run";
 }
 
@@ -63,6 +63,10 @@ TEST_F(SceneFrames, OneThatIsNotThereIsNamed) {
   const std::string file = with_times({0.0, 1.0});
   EXPECT_EQ(complaint({file, 3, {}}), file + ": there is no frame 3; expected 1 to 2");
   EXPECT_EQ(complaint({file, 30, {}}), file + ": there is no frame 30; expected 1 to 2");
+  EXPECT_EQ(complaint({file, {}, 9.0}),
+            file + ": has no frame at t = 9; expected a time from 0 to 1, that of the last frame");
+  EXPECT_EQ(complaint({with_times({0.5, 1.0}), {}, 0.25}),
+            file + ": has no frame at t = 0.25; expected a time from 0.5 to 1, that of the last frame");
   with_times({});
   EXPECT_EQ(complaint({file, {}, {}}), file + ": holds no frame");
   EXPECT_EQ(complaint({file, {}, 1.0}), file + ": holds no frame");
