@@ -207,6 +207,8 @@ MethodChoice choose_method(const Scene& scene, double accuracy) {
   }
   pick_best(choice);
   choice.why = reason_of(choice);
+  const bool given = scene.run.automatic && scene.run.choice.empty() && scene.run.dt > 0.0;  // not chosen before
+  if (given && choice.best >= 0) choice.why += fmt::format("; run.dt = {:g} of the scene is not used", scene.run.dt);
   return choice;
 }
 

@@ -16,8 +16,8 @@ inline constexpr std::string_view fps_allowed = "a number from 0.1 to 1000";
 inline constexpr std::string_view size_allowed = "two even whole numbers from 320 to 8192";
 
 inline constexpr SceneKey keys[] = {
-    {"run", "dt", positive, Dimension::time, "required by rollback, pairwise and Brownian motion", "The time step.",
-     "dt = 0.01"},
+    {"run", "dt", positive, Dimension::time, "required by rollback, pairwise and Brownian motion",
+     "The time step. Not used by `auto`, which chooses one and says so.", "dt = 0.01"},
     {"run", "t_end", non_negative, Dimension::time, "required", "The time at which the run ends; it starts at 0.",
      "t_end = 10.0"},
     {"run", "accuracy", positive, none, "required by auto", "Relative error that averages may have, for `auto`.",

@@ -25,6 +25,7 @@ using test::replaced;
 using test::scene_from;
 using test::sound_scene;
 using testing::HasSubstr;
+using testing::Not;
 
 const std::string folder = CAROM_SOURCE_DIR "/scenes/";
 
@@ -371,6 +372,17 @@ TEST(MethodAuto, TakesTheChoiceAndWritesIt) {
   EXPECT_EQ(again.run.method, scene.run.method);
   EXPECT_EQ(again.run.dt, scene.run.dt);
   EXPECT_TRUE(scene_warnings(again).empty());
+}
+
+// A dt beside it is not used, and the line that says what was chosen says that, too.
+TEST(MethodAuto, SaysThatADtBesideItIsNotUsed) {
+  const Scene scene = scene_from(automatic("accuracy = 1e-4"));
+  const Scene beside = scene_from(automatic("accuracy = 1e-4\ndt = 0.025"));
+  EXPECT_EQ(beside.run.dt, scene.run.dt);
+  EXPECT_EQ(choice_text(beside).find('\n'), std::string::npos);
+  EXPECT_THAT(choice_text(beside), HasSubstr("; run.dt = 0.025 of the scene is not used)"));
+  EXPECT_THAT(choice_text(scene), Not(HasSubstr("run.dt")));
+  EXPECT_THAT(choose_method(scene, 1e-4).why, Not(HasSubstr("run.dt"))) << "dt is the one that was chosen";
 }
 
 TEST(MethodAuto, WhatCannotBeChosenIsAnError) {
