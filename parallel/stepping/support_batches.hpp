@@ -44,7 +44,7 @@ struct SupportBatches {
   std::vector<std::uint32_t> onward;
 
   std::size_t slots() const { return batch_lanes * batch.size(); }
-  // Where the velocity of the spare disk of a patch is: none but the patch reads or writes that cache line.
+  // Where the velocity of the spare disk of a patch is: no two of them share a cache line.
   static std::size_t spare(std::size_t disks, std::size_t patch) { return disks + batch_lanes * patch; }
 };
 

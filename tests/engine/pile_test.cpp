@@ -137,6 +137,19 @@ TEST(Pile, TwoRowsBetweenWalls) {
   EXPECT_NEAR(floor / (7.0 * 0.5), 1.0, 1e-2);
 }
 
+// A box that settles and is empty from the start: steps without a disk, a contact or a velocity.
+TEST(Pile, OfNoDisksIsNone) {
+  const Scene scene = pile_scene(0.5, 0.01, 1.0);
+  const State none = test::state_of(scene, {});
+  for (const int threads : {1, 3}) {
+    const auto engine = make_parallel_engine(scene, none, {threads, 1});
+    for (int step = 0; step < 3; ++step) engine->step();
+    EXPECT_EQ(engine->state().disks.size(), 0U);
+    EXPECT_TRUE(engine->state().loads.empty());
+    EXPECT_EQ(engine->state().counters.wall_collisions, 0U);
+  }
+}
+
 // A load whose force is too small for a double, as the step is longer than the impulse is large, is none: the engine
 // pushed that disk off the side as one that bears, and the reference as one that does not.
 TEST(Pile, LoadWhoseForceVanishesIsNone) {
