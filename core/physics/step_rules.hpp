@@ -41,8 +41,7 @@ struct PairImpact {
 // What became of a contact of a disk and a side or an obstacle.
 struct WallImpact {
   double impulse = 0.0;  // its size; mass length / time
-  double energy =
-      0.0;  // that a thermal side or a wall that moves gave, or a shear at a crossing; mass length^2 / time^2
+  double energy = 0.0;   // from a thermal side, a wall that moves or a shear at a crossing; mass length^2 / time^2
   bool happened = false;
   bool inaccurate = false;   // as of two disks
   bool lost_energy = false;  // likewise

@@ -16,7 +16,7 @@ namespace carom {
 // ... } likewise. Throws InputError for anything else, for a missing key, and for a CSV file that cannot be read.
 PositionLaw read_positions(const TableReader& group);
 
-// Whom a law serves, for messages: the disks of a group may have a list, those of a source come in any number.
+// Which disks a law is for: those of a group may have a list, those of a source come in any number.
 enum class Serves : std::uint8_t { a_group, any_number };
 
 // The value of "velocities": { maxwell = T }, { uniform = v }, a list, { file = ... }; at rest when absent.

@@ -11,6 +11,7 @@
 
 #include "core/disks/obstacle_cells.hpp"
 #include "core/scene/scene_names.hpp"
+#include "io/files/shown_text.hpp"
 
 namespace carom {
 
@@ -35,14 +36,6 @@ void draw_text(cairo_t* c, const std::string& text, double x, double y, double s
   cairo_set_source_rgb(c, 0.13, 0.13, 0.13);
   cairo_move_to(c, x - shift * extents.x_advance, y);
   cairo_show_text(c, text.c_str());
-}
-
-// With U+FFFD, which stands for what cannot be shown, for U+FFFE and U+FFFF, which are no characters.
-std::string without_noncharacters(std::string text) {
-  for (const std::string_view none : {"\xef\xbf\xbe", "\xef\xbf\xbf"}) {
-    for (std::size_t at = 0; (at = text.find(none, at)) != std::string::npos;) text[at + 2] = '\xbd';
-  }
-  return text;
 }
 
 // Takes the last character away; of UTF-8.

@@ -8,11 +8,11 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-#include <string_view>
 
 #include "core/base/check.hpp"
 #include "io/files/child_process.hpp"
 #include "io/files/output_file.hpp"
+#include "io/files/shown_text.hpp"
 
 namespace carom {
 
@@ -43,11 +43,9 @@ bool is_whole(const std::string& picture) {
   return picture.find("</svg>") != std::string::npos || picture.find("IEND") != std::string::npos;
 }
 
-// Text as XML may have it: gnuplot writes U+FFFE and U+FFFF, which are no characters, and the end of CDATA as they are.
+// Text as XML may have it: gnuplot writes what is no character, and the end of CDATA, as they are.
 std::string text_of_xml(std::string text) {
-  for (const std::string_view none : {"\xef\xbf\xbe", "\xef\xbf\xbf"}) {
-    for (std::size_t at = 0; (at = text.find(none, at)) != std::string::npos;) text[at + 2] = '\xbd';  // U+FFFD
-  }
+  text = without_noncharacters(text);
   for (std::size_t at = 0; (at = text.find("]]>", at)) != std::string::npos; at += 3) text.insert(at + 2, 1, ' ');
   return text;
 }

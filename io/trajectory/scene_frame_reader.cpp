@@ -31,7 +31,7 @@ std::optional<Scene> scene_of(const std::string& trajectory, const TrajectoryFra
   if (!std::filesystem::exists(file)) return {};
   try {
     Scene scene = load_scene(file.string());
-    if (scene.box.width == frame.box.width && scene.box.height == frame.box.height) return scene;
+    if (is_in_box(frame, scene.box)) return scene;
   } catch (const InputError&) {
   }
   return {};

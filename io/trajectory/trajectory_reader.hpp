@@ -23,6 +23,12 @@ struct TrajectoryFrame {
   std::vector<std::int32_t> image_x, image_y;
 };
 
+// Is the frame of a run in this box, as far as files tell?
+inline bool is_in_box(const TrajectoryFrame& frame, const Domain& box) {
+  return frame.box.width == box.width && frame.box.height == box.height && frame.box.periodic_x() == box.periodic_x() &&
+         frame.box.periodic_y() == box.periodic_y();
+}
+
 class TrajectoryReader {
  public:
   TrajectoryReader() = default;

@@ -41,8 +41,7 @@ bool has_other_box(const Recording& recording, const Domain& box) {
   try {
     TrajectoryFrame first;
     if (!open_frames(recording)->read(first)) return false;
-    return first.box.width != box.width || first.box.height != box.height ||
-           first.box.periodic_x() != box.periodic_x() || first.box.periodic_y() != box.periodic_y();
+    return !is_in_box(first, box);
   } catch (const InputError&) {
     return false;
   }
