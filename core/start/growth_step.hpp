@@ -72,17 +72,20 @@ inline RoomAtObstacles radius_within_obstacles(const Domain& box, double x, doub
 struct GrowthTally {
   std::size_t lacking = 0;  // disks that lacked something before the step
   bool overlap = false;     // two disks, or a disk and a side or an obstacle, overlapped before the step, by rounding
+  double most_lack = 0.0;   // target - radius after the step, the largest of any disk; length
   ExactSum area;            // of radius^2 after the step; length^2
   ExactSum lack;            // of target^2 - radius^2 after the step; length^2
 
   void add(double before, double after, double target) {
     lacking += before < target ? 1 : 0;
+    most_lack = std::max(most_lack, target - after);
     area.add(after * after);
     lack.add(target * target - after * after);
   }
   void add(const GrowthTally& other) {
     lacking += other.lacking;
     overlap = overlap || other.overlap;
+    most_lack = std::max(most_lack, other.most_lack);
     area.add(other.area);
     lack.add(other.lack);
   }

@@ -32,6 +32,8 @@ struct ListLayout {
   // How many disks there are in the whole box, where a rank or a part has but some of them; 0: it has all.
   std::size_t disks_of_box = 0;
   double low = 0.0, high = 0.0;  // then its disks lie about between these heights; length
+  // By how much every radius may grow while lists are in use, which takes as much off the skin; length.
+  double growth = 0.0;
 };
 
 // With at most so many disks, listing all pairs is as fast as neighbour lists, and nothing has to be relisted in the

@@ -34,7 +34,7 @@ constexpr double most_newcomers_of_regions = 0.5;
 // Where more than one of so many disks leave in a window, it takes less to make all lists anew than to take them out.
 constexpr std::size_t disks_per_leaver = 8;
 
-class ParallelExact final : public Engine {
+class ParallelExact final : public ExactFlights {
  public:
   ParallelExact(const Scene& scene, State initial, const Threads& threads, const BorderWatch& watch)
       : scene_(scene),
@@ -69,6 +69,16 @@ class ParallelExact final : public Engine {
                   const std::function<void(std::size_t)>& visit) override;
   const PhaseTimes& phase_times() const override { return times_; }
   std::vector<std::string> take_warnings() override { return validity_.take_warnings(); }
+
+  void begin_flight(State state, double t_end, double growth, bool keeps_lists) override;
+  State end_flight() override;
+  double growth() const override { return allowed_growth_; }
+  void visit_lists(const VisitList& visit) const override;
+  // Lists that are built from now on allow for it.
+  void set_growth(double growth) {
+    growth_ = growth;
+    halos_.set_growth(growth);
+  }
 
  private:
   void start_window();
@@ -109,6 +119,8 @@ class ParallelExact final : public Engine {
   std::vector<std::size_t> leavers_;
   std::vector<double> column_scratch_;
   std::vector<DiskId> id_scratch_;
+  double growth_ = 0.0;          // of flights, as ExactFlights says
+  double allowed_growth_ = 0.0;  // likewise, after a flight
 };
 
 // Sources emit, Brownian disks draw their velocities; those that cross a sink unseen in the interval leave.
@@ -258,7 +270,9 @@ void ParallelExact::build_lists_if_due(const WindowPlan& plan, bool regions_allo
   // Regions take no changes: their lists are built anew. Where disks leave through sinks, that is once in a window of
   // full length, and faster than one queue; each newcomer ends a window.
   regions_allowed = regions_allowed && newcomers_in(plan.meant) < most_newcomers_of_regions;
-  windows_.build_lists(plan, choose_layout(state_.disks.size(), scene_.box, regions_allowed, executor_));
+  ListLayout layout = choose_layout(state_.disks.size(), scene_.box, regions_allowed, executor_);
+  layout.growth = growth_;
+  windows_.build_lists(plan, layout);
 }
 
 // Runs the window, in parts if it can; else the whole, again with a larger speed bound where a disk was too fast, and
@@ -340,11 +354,43 @@ std::vector<DiskContact> ParallelExact::contacts() const {
                             logged_->start, [](std::uint32_t) { return true; });
 }
 
+void ParallelExact::begin_flight(State state, double t_end, double growth, bool keeps_lists) {
+  state_ = std::move(state);
+  scene_.run.t_end = t_end;
+  logged_.reset();
+  set_growth(growth);
+  forget(keeps_lists ? Known::lists : Known::nothing);
+  if (parts_are_known()) halos_.take_radii();
+}
+
+// Regions do not list all that is near.
+State ParallelExact::end_flight() {
+  if (parts_are_known()) {
+    allowed_growth_ = halos_.complete_lists() ? halos_.growth() : 0.0;
+  } else {
+    const bool knows_all = windows_.known() != Known::nothing && windows_.window().mode != EngineMode::regions;
+    allowed_growth_ = knows_all ? windows_.lists().growth() : 0.0;
+  }
+  return std::move(state_);
+}
+
+void ParallelExact::visit_lists(const VisitList& visit) const {
+  if (parts_are_known()) return halos_.visit_lists(visit);
+  windows_.lists().visit_lists(executor_, visit);
+}
+
 }  // namespace
 
 std::unique_ptr<Engine> make_parallel_exact(const Scene& scene, State initial, const Threads& threads,
                                             const BorderWatch& watch) {
   return std::make_unique<ParallelExact>(scene, std::move(initial), threads, watch);
+}
+
+std::unique_ptr<ExactFlights> make_exact_flights(const Scene& scene, State initial, const Threads& threads,
+                                                 double growth) {
+  auto flights = std::make_unique<ParallelExact>(scene, std::move(initial), threads, BorderWatch{});
+  flights->set_growth(growth);
+  return flights;
 }
 
 }  // namespace carom

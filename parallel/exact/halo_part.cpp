@@ -53,19 +53,20 @@ void HaloPart::take_disks(const Disks& all, const BoxCut& cut, std::size_t part)
   gather_disks(all, slots_, state_.disks);
 }
 
-void HaloPart::build(const WindowPlan& plan, const BoxCut& cut, State& all, double largest_radius, std::size_t first,
-                     std::vector<std::uint32_t>& slots) {
+void HaloPart::build(const WindowPlan& plan, const BoxCut& cut, State& all, const LargestRadius& radii,
+                     std::size_t first, std::vector<std::uint32_t>& slots) {
   const double low = cut.along_x ? 0.0 : cut.low(number_) - cut.halo;
   const double high = cut.along_x ? 0.0 : cut.high(number_) + cut.halo;
+  ListLayout layout = layout_of_part(state_.disks.size(), slots.size(), low, high);
+  layout.growth = radii.growth;
   run_.forget(Known::nothing);
-  run_.build_lists(plan, layout_of_part(state_.disks.size(), slots.size(), low, high),
-                   [&](const std::vector<std::uint32_t>& order, const std::vector<double>& /*scratch*/) {
-                     std::vector<std::uint32_t> sorted;
-                     take(slots_, order, sorted);
-                     slots_.swap(sorted);
-                   });
+  run_.build_lists(plan, layout, [&](const std::vector<std::uint32_t>& order, const std::vector<double>& /*scratch*/) {
+    std::vector<std::uint32_t> sorted;
+    take(slots_, order, sorted);
+    slots_.swap(sorted);
+  });
   find_own(cut, first, slots);
-  set_ends(cut, all, largest_radius);
+  set_ends(cut, all, radii);
 }
 
 void HaloPart::find_own(const BoxCut& cut, std::size_t first, std::vector<std::uint32_t>& slots) {
@@ -86,7 +87,7 @@ void HaloPart::find_own(const BoxCut& cut, std::size_t first, std::vector<std::u
   }
 }
 
-void HaloPart::set_ends(const BoxCut& cut, State& all, double largest_radius) {
+void HaloPart::set_ends(const BoxCut& cut, State& all, const LargestRadius& radii) {
   PartEnds ends;
   ends.along_x = cut.along_x;
   ends.between.centre = 0.5 * (cut.low(number_) + cut.high(number_));
@@ -100,7 +101,7 @@ void HaloPart::set_ends(const BoxCut& cut, State& all, double largest_radius) {
   const bool three_above = cut.has_above(number_) && cut.has_above(above_) && cut.part_above(above_) != number_;
   if (three_below) ends.next_below = -half - width(below_);
   if (three_above) ends.next_above = half + width(above_);
-  run_.set_part(ends, own_count_, largest_radius, all, slots_, [this, cut](std::uint32_t i) {
+  run_.set_part(ends, own_count_, radii.now + radii.growth, all, slots_, [this, cut](std::uint32_t i) {
     const PathSegment& path = record(i).path;
     const double at = cut.along_x ? path.x : path.y;
     DiskProgress progress;
@@ -133,6 +134,34 @@ void HaloPart::give_columns(Disks& all) {
   for (std::vector<double>* column : {&d.x, &d.radius, &d.mass, &d.spin}) make_room(*column);
   make_room(d.id);
   make_room(slots_);
+}
+
+void HaloPart::take_radii(const Disks& all) {
+  std::vector<double>& radius = state_.disks.radius;
+  for (std::size_t i = 0; i < radius.size(); ++i) radius[i] = all.radius[slots_[i]];
+}
+
+// Those that are within the halo are ghosts. Two disks further apart than twice the largest radius that is allowed for
+// leave each other's growth alone.
+bool HaloPart::has_all_near_own(const Disks& all) const {
+  const double room = halo_ - 2.0 * run_.largest_radius();
+  const std::vector<double>& c = ends().along_x ? all.x : all.y;
+  const KnownBand& between = ends().between;
+  return std::all_of(own_.begin(), own_.end(), [&](std::uint32_t i) {
+    if (i == none) return true;
+    const double d = between.from_centre(c[slots_[i]]);
+    return std::max(d - between.above, between.below - d) < room;
+  });
+}
+
+void HaloPart::visit_lists(const std::function<void(std::size_t, std::span<const std::uint32_t>)>& visit) const {
+  std::vector<std::uint32_t> near;
+  for (const std::uint32_t i : own_) {
+    if (i == none) continue;
+    near.clear();
+    run_.lists().for_each_neighbour(i, [&](std::uint32_t j) { near.push_back(slots_[j]); });
+    visit(slots_[i], near);
+  }
 }
 
 // A disk whose next event is now is predicted at the start of the next window, with all disks near it.

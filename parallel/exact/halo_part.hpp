@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/base/phase_times.hpp"
@@ -17,6 +18,12 @@
 #include "parallel/threads/executor.hpp"
 
 namespace carom {
+
+// Of all disks of the box: the largest radius, and by how much each may grow while lists are in use. Lengths.
+struct LargestRadius {
+  double now = 0.0;
+  double growth = 0.0;
+};
 
 class HaloPart;
 using HaloParts = std::vector<std::unique_ptr<HaloPart>>;
@@ -33,9 +40,9 @@ class HaloPart {
 
   // Takes its disks from all of them: those of this part of the cut, and of its halo.
   void take_disks(const Disks& all, const BoxCut& cut, std::size_t part);
-  // Then sorts and lists them. all, largest_radius: of all disks. first: how many own disks the parts before this one
-  // have. For each own disk, of index k in `all`, sets slots[k] to first + its place among the own ones.
-  void build(const WindowPlan& plan, const BoxCut& cut, State& all, double largest_radius, std::size_t first,
+  // Then sorts and lists them. all, radii: of all disks. first: how many own disks the parts before this one have. For
+  // each own disk, of index k in `all`, sets slots[k] to first + its place among the own ones.
+  void build(const WindowPlan& plan, const BoxCut& cut, State& all, const LargestRadius& radii, std::size_t first,
              std::vector<std::uint32_t>& slots);
   // When all parts are built, finds the owners of its ghosts. firsts: `first` of each part, and the number of all
   // disks.
@@ -60,10 +67,18 @@ class HaloPart {
   void find_offers(const Disks& all);
   // Then, when all have: takes what others offer as ghosts. all: the columns.
   void take_offers(const Disks& all, const HaloParts& parts);
+  // Then, when all have taken theirs.
+  void clear_offers() { offers_below_.clear(), offers_above_.clear(); }
   // Then, one part after the other: makes the ghosts that came inside disks of its own.
   void take_over(const HaloParts& parts);
 
-  // Between windows. The disk in this slot has another velocity: if it is here, its next event is predicted anew.
+  // Between windows. All radii have grown, by no more than lists allow for.
+  void take_radii(const Disks& all);
+  // When offers have been taken: are all disks that an own disk may grow against disks of this part? all: the columns.
+  bool has_all_near_own(const Disks& all) const;
+  // Calls visit(slot, near) for each own disk; near: the slots of the disks that it lists.
+  void visit_lists(const std::function<void(std::size_t, std::span<const std::uint32_t>)>& visit) const;
+  // The disk in this slot has another velocity: if it is here, its next event is predicted anew.
   void change_velocity(std::uint32_t slot);
   // Calls visit with the slots of own disks, as NeighbourLists::visit_near.
   void visit_near(Vec2 centre, double half_width, double half_height,
@@ -95,7 +110,7 @@ class HaloPart {
   template <class T>
   void give(const std::vector<T>& column, std::vector<T>& all) const;
   void find_own(const BoxCut& cut, std::size_t first, std::vector<std::uint32_t>& slots);
-  void set_ends(const BoxCut& cut, State& all, double largest_radius);
+  void set_ends(const BoxCut& cut, State& all, const LargestRadius& radii);
   bool goes_as_there(const Ghost& ghost, const HaloPart& owner) const;
   void replace_path(Ghost& ghost, const HaloPart& owner);
   double beyond_end(const PathSegment& path) const;

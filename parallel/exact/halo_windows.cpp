@@ -121,8 +121,8 @@ void HaloWindows::build_parts(const WindowPlan& plan, const BoxCut& cut) {
   executor_.run(parts_.size(), [&](std::size_t r) { parts_[r]->take_disks(state_.disks, cut, r); });
   std::vector<std::size_t> firsts{0};
   for (const std::unique_ptr<HaloPart>& part : parts_) firsts.push_back(firsts.back() + part->own());
-  const double radius = largest_radius(state_.disks);
-  executor_.run(parts_.size(), [&](std::size_t r) { parts_[r]->build(plan, cut, state_, radius, firsts[r], slots); });
+  const LargestRadius radii{largest_radius(state_.disks), growth_};
+  executor_.run(parts_.size(), [&](std::size_t r) { parts_[r]->build(plan, cut, state_, radii, firsts[r], slots); });
   for_parts([&](HaloPart& part) {
     part.find_owners(firsts, slots);
     part.give_columns(state_.disks);
@@ -156,10 +156,32 @@ SliceOutcome HaloWindows::run(const WindowPlan& plan, const SpeedSummary& speeds
   return outcome;
 }
 
-// Disks that have come near to another part, or into one, since the last window.
+// Disks that have come near to another part, or into one, since the last window; those that are exchanged already are
+// no longer offered.
 void HaloWindows::exchange_disks() {
   for_parts([&](HaloPart& part) { part.take_offers(state_.disks, parts_); });
+  for (const std::unique_ptr<HaloPart>& part : parts_) part->clear_offers();
   for (const std::unique_ptr<HaloPart>& part : parts_) part->take_over(parts_);
+}
+
+void HaloWindows::take_radii() {
+  for_parts([&](HaloPart& part) { part.take_radii(state_.disks); });
+}
+
+double HaloWindows::growth() const {
+  double least = HUGE_VAL;
+  for (const std::unique_ptr<HaloPart>& part : parts_) least = std::min(least, part->run().lists().growth());
+  return least;
+}
+
+bool HaloWindows::complete_lists() {
+  exchange_disks();
+  return std::all_of(parts_.begin(), parts_.end(),
+                     [&](const auto& part) { return part->has_all_near_own(state_.disks); });
+}
+
+void HaloWindows::visit_lists(const std::function<void(std::size_t, std::span<const std::uint32_t>)>& visit) const {
+  for_parts([&](const HaloPart& part) { part.visit_lists(visit); });
 }
 
 void HaloWindows::begin(const WindowPlan& plan, const SpeedSummary& speeds, const WindowState& window) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "core/base/phase_times.hpp"
@@ -38,6 +39,8 @@ class HaloWindows {
   // No more than this is right any more.
   void forget(Known left);
   void release_memory();
+  // Lists that are built from now on allow for so much growth of each radius; length.
+  void set_growth(double growth) { growth_ = growth; }
 
   // As WindowRun::run, and builds lists if they are due. Where the outcome is neither `done` nor `given_up`, the window
   // is to be run without parts. Of `window` it takes whether paths are kept, and go_on.
@@ -47,6 +50,14 @@ class HaloWindows {
 
   // Between windows, where all is known since the last one was done. The disk has another velocity.
   void change_velocity(std::size_t disk);
+  // All radii have grown, by no more than growth() since the lists were built, and times are forgotten.
+  void take_radii();
+  // By how much those that there are allow for (NeighbourLists::growth).
+  double growth() const;
+  // Brings the lists up to date. True if visit_lists then tells each disk of all those that it may grow against.
+  bool complete_lists();
+  // Calls visit(disk, near) for each disk, on all threads. near: the disks that it lists.
+  void visit_lists(const std::function<void(std::size_t, std::span<const std::uint32_t>)>& visit) const;
   // As Engine::visit_near.
   void visit_near(Vec2 centre, double half_width, double half_height,
                   const std::function<void(std::size_t)>& visit) const;
@@ -89,6 +100,7 @@ class HaloWindows {
   PartWork work_;         // of the parts, and how they were cut
   HaloUse use_;           // of the window so far
   double spacing_ = 0.0;  // mean; length
+  double growth_ = 0.0;
   Known known_ = Known::nothing;
   int windows_without_ = 0;  // still to come
   Count void_runs_ = 0;

@@ -75,8 +75,24 @@ void NeighbourLists::move_into_cell(const Disks& d, std::uint32_t i, std::uint32
 
 std::size_t NeighbourLists::level_of(const Disks& d, std::uint32_t i) const {
   if (d.radius.empty()) return 0;
-  // A disk that was added since may be smaller than those that the grid was made for.
-  return std::min(class_of_radius(d.radius[i], grid_.levels.front().largest_radius), grid_.levels.size() - 1);
+  return growth_ > 0.0 ? kept_level_[i] : level_of_radius(d.radius[i]);
+}
+
+// A disk that was added since may be smaller than those that the grid was made for.
+std::size_t NeighbourLists::level_of_radius(double radius) const {
+  return std::min(class_of_radius(radius, grid_.levels.front().largest_radius), grid_.levels.size() - 1);
+}
+
+void NeighbourLists::keep_levels(const Disks& d) {
+  kept_level_.clear();
+  if (mode_ == EngineMode::all_pairs) return;
+  for (std::uint32_t i = 0; i < d.size(); ++i) keep_level(d, i);
+}
+
+void NeighbourLists::keep_level(const Disks& d, std::uint32_t i) {
+  if (!(growth_ > 0.0) || d.radius.empty()) return;
+  kept_level_.resize(std::max<std::size_t>(kept_level_.size(), i + 1));
+  kept_level_[i] = static_cast<std::uint8_t>(level_of_radius(d.radius[i] + growth_));
 }
 
 // Moves the disk to the cell of this position; false, without a change, if its old cell is outside the region.

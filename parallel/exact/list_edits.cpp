@@ -9,6 +9,7 @@ void NeighbourLists::append(const Disks& d, std::uint32_t i, Vec2 at) {
   const FixedPointPosition position = listed_box_.fixed_point(at.x, at.y);
   const ListRegion everything;
   ++first_of_tile_.back();
+  keep_level(d, i);
   rows_.append(position);
   rows_.set_sides(i, find_sides(d, i));
   FoundNeighbours found;
@@ -35,6 +36,10 @@ void NeighbourLists::remove(std::uint32_t i, const Disks& d) {
     slots_.insert(cell, i, slot_position(at), radius_in_units(d.radius_of(last)));
     rows_.set_sides(i, rows_.row(last).sides & ~ListRow::has_more);
     rows_.replace(i, near, everything);
+  }
+  if (!kept_level_.empty()) {
+    kept_level_[i] = kept_level_.back();
+    kept_level_.pop_back();
   }
   rows_.drop_last();
   --first_of_tile_.back();

@@ -32,6 +32,8 @@ constexpr double most_skin = 0.37;
 constexpr double most_skin_in_flow = 0.15;
 // The least skin in units of listed positions, so that their rounding does not matter.
 constexpr double least_units = 1024.0;
+// The most of the skin that is kept for radii that grow.
+constexpr double most_growth = 0.6;
 
 }  // namespace
 
@@ -58,8 +60,9 @@ void NeighbourLists::choose_skin(const Disks& d, const ListLayout& layout, doubl
   const double most = flow_.acts ? most_skin_in_flow : most_skin;
   if (box_.periodic_x()) skin_ = std::min(skin_, most * box_.width);
   if (box_.periodic_y()) skin_ = std::min(skin_, most * box_.height);
-  near_border_ = relist_distance_of(layout.relist_share * skin_);
-  elsewhere_ = relist_distance_of(skin_);
+  growth_ = layout.growth <= most_growth * skin_ ? layout.growth : 0.0;
+  near_border_ = relist_distance_of(layout.relist_share * (skin_ - growth_));
+  elsewhere_ = relist_distance_of(skin_ - growth_);
   elsewhere_.lead2 = near_border_.lead2;
 }
 
@@ -87,6 +90,16 @@ void NeighbourLists::sort(Disks& d, const ListLayout& layout, double crowded, co
     if (layout.low < layout.high) store_rows_between(box_, layout.low, layout.high, grid_);
   }
   sort_into_cells(d, grid_, executor, cells_);
+}
+
+// By the radii that disks may grow to. So those that have the same radius in the end are seldom in two size classes,
+// apart in memory.
+void NeighbourLists::sort_grown(Disks& d, const ListLayout& layout, double crowded, const Executor& executor) {
+  largest_radius_ += growth_;
+  const std::vector<double> radius = d.radius;
+  for (double& r : d.radius) r += growth_;
+  sort(d, layout, crowded, executor);
+  for (std::size_t i = 0; i < radius.size(); ++i) d.radius[i] = radius[cells_.order[i]];
 }
 
 void NeighbourLists::find_tiles(std::size_t disks) {

@@ -33,6 +33,7 @@ void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout
   const std::size_t n = d.size();
   const bool gives_back = std::max(n, layout.disks_of_box) > disks_of_much_memory;
   largest_radius_ = largest_radius(d);
+  growth_ = layout.growth;
   grid_.tiles = grid_.tiles_a_layer = 1;
   grid_.tile_keys = 0;
   near_border_ = elsewhere_ = {};
@@ -41,7 +42,11 @@ void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout
     choose_skin(d, layout, crowded);
     // The memory of the rows is given back, as sorting needs some.
     if (gives_back) rows_.release();
-    sort(d, layout, crowded, executor);
+    if (growth_ > 0.0) {
+      sort_grown(d, layout, crowded, executor);
+    } else {
+      sort(d, layout, crowded, executor);
+    }
     choose_slot_units();
     prepare_query(d);
     if (sorted) sorted(cells_.order, cells_.column);
@@ -67,6 +72,7 @@ void NeighbourLists::list_all(const Disks& d, const Executor& executor) {
     slots_.begin(grid_.keys, grid_.tile_keys == 0 ? grid_.keys : grid_.tile_keys, !d.radius.empty());
     list_levels();
   }
+  keep_levels(d);
   if (mode_ == EngineMode::regions) {
     rows_.begin(d.size(), grid_.tiles);
     set_listed_positions(d, executor);
@@ -102,6 +108,18 @@ void NeighbourLists::list_block(const Disks& d, std::size_t block, std::size_t b
     }
     rows_.set(i, found.disks());
   }
+}
+
+void NeighbourLists::visit_lists(const Executor& executor,
+                                 const std::function<void(std::size_t, std::span<const std::uint32_t>)>& visit) const {
+  executor.for_ranges(rows_.size(), disks_per_block, [&](std::size_t, std::size_t begin, std::size_t end) {
+    std::vector<std::uint32_t> near;
+    for (std::size_t i = begin; i < end; ++i) {
+      near.clear();
+      for_each_neighbour(static_cast<std::uint32_t>(i), [&](std::uint32_t j) { near.push_back(j); });
+      visit(i, near);
+    }
+  });
 }
 
 void NeighbourLists::find_all_others(std::uint32_t i, FoundNeighbours& found) const {

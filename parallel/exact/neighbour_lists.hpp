@@ -39,7 +39,8 @@ struct FoundNeighbours {
 // skin from it. Disks i and j are in each other's lists whenever their listed positions are within r_i + r_j + 2 skin
 // (nearest image). So while both are within the skin of their listed positions, disks that do not list each other
 // cannot touch. A disk that is the relist distance from its listed position, at most the skin, is relisted. In
-// all-pairs mode every disk lists every other one, and none is ever relisted.
+// all-pairs mode every disk lists every other one, and none is ever relisted. Where radii grow, r_i and r_j are those
+// when the lists were built, or larger, and the relist distance is less than the skin by as much as they may grow.
 class NeighbourLists {
  public:
   // Sorts the disks into cells (their storage order changes) and lists all of them where they are; in all-pairs mode
@@ -78,6 +79,10 @@ class NeighbourLists {
   EngineMode mode() const { return mode_; }
   // Not in all-pairs mode.
   double skin() const { return skin_; }  // length
+  // By how much each radius may have grown since the lists were built: what the layout asked for, or 0 where that would
+  // leave too little of the skin. Two disks that do not list each other are further apart than their radii then and
+  // twice this, while both stay within the relist distance. Length.
+  double growth() const { return growth_; }
   const RelistDistance& relist_distance(bool near_border) const { return near_border ? near_border_ : elsewhere_; }
   Vec2 listed_unit() const { return listed_box_.unit; }  // of a FixedPointPosition; length
   // Of disk i; inside the box, but for rounding.
@@ -109,6 +114,10 @@ class NeighbourLists {
     rows_.for_each_neighbour(i, visit);
   }
   const ListRows& rows() const { return rows_; }
+
+  // Calls visit(i, near) for each disk i, on all threads. near: the disks that it lists.
+  void visit_lists(const Executor& executor,
+                   const std::function<void(std::size_t, std::span<const std::uint32_t>)>& visit) const;
 
   // Prefetches the list of disk i.
   [[gnu::always_inline]] void prefetch(std::uint32_t i) const { rows_.prefetch(i); }
@@ -151,7 +160,7 @@ class NeighbourLists {
   // Is disk i, at (x, y) now, within the skin of its listed position however it moves over this distance? Not in a
   // sheared box.
   bool stays_in_skin(std::uint32_t i, double x, double y, double distance) const {
-    const double room = skin_ * (1.0 - 1e-9) - distance;
+    const double room = elsewhere_.length * (1.0 - 1e-9) - distance;
     return room > 0.0 && is_within(i, x, y, room * room);
   }
 
@@ -258,6 +267,7 @@ class NeighbourLists {
                             const RelistDistance& relist) const;
   void choose_skin(const Disks& disks, const ListLayout& layout, double crowded);
   void sort(Disks& disks, const ListLayout& layout, double crowded, const Executor& executor);
+  void sort_grown(Disks& disks, const ListLayout& layout, double crowded, const Executor& executor);
   void find_tiles(std::size_t disks);
   void set_listed_positions(const Disks& disks, const Executor& executor);
   void list_all(const Disks& disks, const Executor& executor);
@@ -313,6 +323,9 @@ class NeighbourLists {
   void find_all_others(std::uint32_t i, FoundNeighbours& found) const;
   // The number of the level of the disk's size.
   std::size_t level_of(const Disks& disks, std::uint32_t i) const;
+  std::size_t level_of_radius(double radius) const;
+  void keep_levels(const Disks& disks);
+  void keep_level(const Disks& disks, std::uint32_t i);
   std::uint32_t cell_in(std::size_t k, FixedPointPosition at) const {
     const ListedLevel& listed = listed_levels_[k];
     const std::int64_t row = listed.rows.place_of(at.y);
@@ -346,6 +359,7 @@ class NeighbourLists {
   SortedCells cells_;
   std::vector<std::uint32_t> first_of_tile_;  // and after the last one: how many disks
   double skin_ = 0.0;
+  double growth_ = 0.0;
   RelistDistance near_border_, elsewhere_;
   FlowFrame flow_;
   bool images_alone_ = false;    // no walls, obstacles or shear: nothing but images of neighbours is near a disk
@@ -360,6 +374,7 @@ class NeighbourLists {
   ListQuery query_;                               // what the queries of all disks have in common
   ListReach common_reach_;                        // where all radii are equal
   std::vector<ListedLevel> listed_levels_;
+  std::vector<std::uint8_t> kept_level_;  // of each disk, where radii grow, which moves none to another level
   // Two disks that are further from each other than lists reach, by this at most, may list each other all the same.
   // Length.
   double search_margin_ = 0.0;

@@ -99,7 +99,7 @@ void WindowRun::build_lists(const WindowPlan& plan, const ListLayout& layout, co
   window_.mode = layout.mode;
   window_.regions = layout.regions;
   window_.looks_ahead = layout.looks_ahead;
-  largest_radius_ = std::max(least_largest_radius_, carom::largest_radius(state_.disks));
+  largest_radius_ = std::max(least_largest_radius_, carom::largest_radius(state_.disks) + layout.growth);
   known_ = std::max(known_, Known::lists);
   rebuilt_ = true;
   disks_when_built_ = state_.disks.size();

@@ -1,115 +1,156 @@
 #include "parallel/start/growth_step.hpp"
 
-#include <utility>
+#include <algorithm>
+#include <array>
+#include <atomic>
 
 #include "core/physics/disk_pair.hpp"
 #include "parallel/cells/cell_grid.hpp"
 #include "parallel/cells/counting_sort.hpp"
 #include "parallel/cells/nearby_runs.hpp"
-#include "parallel/exact/exact_engine.hpp"
 
 namespace carom {
 
 namespace {
 
 constexpr std::size_t disks_of_task = 2048;  // enough that starting a task is nothing beside them
+constexpr std::size_t disks_at_once = 256;   // of sums
 
-// What a step keeps beside the disks, in their order in storage.
-struct StepColumns {
+// What a step keeps beside the disks, in their order in storage; lengths.
+struct GrowthColumns {
   std::vector<double> before;  // radius
-  std::vector<double> lack;    // target - radius
+  std::vector<double> after;   // likewise
+  std::vector<double> lack;    // target - radius before
 };
 
-// Sorts the disks into cells of their reach, which takes the place of the radius.
-CellGrid sort_by_reach(const Executor& executor, Disks& d, const Domain& box, const std::vector<double>& target,
-                       SortedCells& cells, StepColumns& columns) {
-  const std::size_t n = d.size();
-  std::vector<double> radius = d.radius;
-  executor.for_ranges(n, disks_of_task, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) d.radius[i] = growth_reach(radius[i], target[d.id[i]]);
+// Every disk has its reach in place of its radius, which columns has.
+struct GrowingDisks {
+  const Disks& disks;
+  const Domain& box;
+  const GrowthColumns& columns;
+  bool lack_something;  // any of them
+};
+
+// The reach takes the place of the radius.
+void set_reach(const Executor& executor, Disks& d, const std::vector<double>& target) {
+  executor.for_ranges(d.size(), disks_of_task, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) d.radius[i] = growth_reach(d.radius[i], target[d.id[i]]);
   });
-  const double largest = largest_radius(d);
-  CellGrid grid = make_grid(box, largest, count_classes(d, largest));
-  sort_into_cells(d, grid, executor, cells);
-  columns.before.resize(n);
-  columns.lack.resize(n);
-  executor.for_ranges(n, disks_of_task, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      columns.before[i] = radius[cells.order[i]];
-      columns.lack[i] = target[d.id[i]] - columns.before[i];
-    }
-  });
-  return grid;
 }
 
-// The radius that all gaps around disk i allow; each pair is looked at from both of its ends, so that no
-// thread waits for another.
-double grown_radius(const Disks& d, const Domain& box, double target, const CellGrid& grid, const SortedCells& cells,
-                    const StepColumns& columns, std::size_t i, bool& overlap) {
+// Returns whether any disk lacks something.
+bool set_lack(const Executor& executor, const Disks& d, const std::vector<double>& target, GrowthColumns& columns) {
+  columns.lack.resize(d.size());
+  columns.after.resize(d.size());
+  std::vector<double> most(executor.blocks(d.size(), disks_of_task), 0.0);
+  executor.for_ranges(d.size(), disks_of_task, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      columns.lack[i] = target[d.id[i]] - columns.before[i];
+      most[b] = std::max(most[b], columns.lack[i]);
+    }
+  });
+  return std::any_of(most.begin(), most.end(), [](double lack) { return lack > 0.0; });
+}
+
+// The radius that all gaps around disk i allow. visit(look) calls look(j) for all disks that may be within reach, for i
+// too; each pair is looked at from both of its ends, so that no thread waits for another.
+template <class Visit>
+double grown_radius(const GrowingDisks& all, double target, std::size_t i, std::atomic<bool>& overlaps, Visit&& visit) {
+  const Disks& d = all.disks;
+  const Domain& box = all.box;
   const double length = std::max(box.width, box.height);
-  const double radius = columns.before[i];
-  const double lack = columns.lack[i];
+  const double radius = all.columns.before[i];
+  const double lack = all.columns.lack[i];
+  if (!(lack > 0.0) && all.lack_something) return radius;
   double after = std::min(target, radius_within_sides(box, d.x[i], d.y[i], radius));
   const RoomAtObstacles room = radius_within_obstacles(box, d.x[i], d.y[i], radius, d.radius[i]);
   after = std::min(after, room.radius);
-  overlap = overlap || room.overlap || !within_sides(box, d.x[i], d.y[i], radius);
-  const auto look = [&](std::size_t j) {
+  bool overlap = room.overlap || !within_sides(box, d.x[i], d.y[i], radius);
+  visit([&](std::size_t j) {
     const double distance2 = nearest_distance2({d.x[j] - d.x[i], d.y[j] - d.y[i]}, box);
-    if (!touches(distance2, d.radius[i] + d.radius[j])) return;
-    const double contact = radius + columns.before[j];
+    if (j == i || !touches(distance2, d.radius[i] + d.radius[j])) return;
+    const double contact = radius + all.columns.before[j];
     overlap = overlap || distance2 < contact * contact;
     if (!(lack > 0.0)) return;
     const double usable = usable_gap(std::sqrt(distance2) - contact, length);
-    after = std::min(after, radius_within(radius, lack, columns.lack[j], usable));
-  };
-  for (const GridLevel& level : grid.levels) {
-    const double reach = d.radius[i] + level.largest_radius + level.margin;
-    for_each_run_near(level, cells.start.data(), box, d.x[i], d.y[i], reach,
-                      [&](std::uint32_t first, std::uint32_t last) {
-                        for (std::uint32_t j = first; j < last; ++j) {
-                          if (j != i) look(j);
-                        }
-                      });
-  }
+    after = std::min(after, radius_within(radius, lack, all.columns.lack[j], usable));
+  });
+  if (overlap) overlaps.store(true, std::memory_order_relaxed);
   return after;
+}
+
+// Gives the disks the radii after the step, and sums them up.
+GrowthTally take_radii(const Executor& executor, Disks& d, const std::vector<double>& target, bool overlap,
+                       GrowthColumns& columns) {
+  std::vector<GrowthTally> tally(std::max<std::size_t>(executor.blocks(d.size(), disks_of_task), 1));
+  executor.for_ranges(d.size(), disks_of_task, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    std::array<double, disks_at_once> area;
+    std::array<double, disks_at_once> lack;
+    for (std::size_t first = begin; first < end; first += disks_at_once) {
+      const std::size_t count = std::min(disks_at_once, end - first);
+      for (std::size_t k = 0; k < count; ++k) {
+        const double final_radius = target[d.id[first + k]];
+        const double after = columns.after[first + k];
+        tally[b].lacking += columns.before[first + k] < final_radius ? 1U : 0U;
+        tally[b].most_lack = std::max(tally[b].most_lack, final_radius - after);
+        area[k] = after * after;
+        lack[k] = final_radius * final_radius - after * after;
+      }
+      tally[b].area.add(std::span<const double>(area).first(count));
+      tally[b].lack.add(std::span<const double>(lack).first(count));
+    }
+  });
+  d.radius.swap(columns.after);
+  for (std::size_t b = 1; b < tally.size(); ++b) tally[0].add(tally[b]);
+  tally[0].overlap = overlap;
+  return tally[0];
 }
 
 }  // namespace
 
-GrowthTally parallel_grow_step(const Executor& executor, Disks& d, const Domain& box,
-                               const std::vector<double>& target) {
+GrowthTally grow_by_cells(const Executor& executor, Disks& d, const Domain& box, const std::vector<double>& target) {
+  const std::vector<double> radius = d.radius;
+  set_reach(executor, d, target);
+  const double largest = largest_radius(d);
+  const CellGrid grid = make_grid(box, largest, count_classes(d, largest));
   SortedCells cells;
-  StepColumns columns;
-  const CellGrid grid = sort_by_reach(executor, d, box, target, cells, columns);
-  std::vector<double> after(d.size());
-  std::vector<GrowthTally> tally(std::max<std::size_t>(executor.blocks(d.size(), disks_of_task), 1));
-  executor.for_ranges(d.size(), disks_of_task, [&](std::size_t b, std::size_t begin, std::size_t end) {
+  sort_into_cells(d, grid, executor, cells);
+  GrowthColumns columns;
+  columns.before.resize(d.size());
+  executor.for_ranges(d.size(), disks_of_task, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) columns.before[i] = radius[cells.order[i]];
+  });
+  std::atomic<bool> overlaps = false;
+  const GrowingDisks all{d, box, columns, set_lack(executor, d, target, columns)};
+  executor.for_ranges(d.size(), disks_of_task, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const double final_radius = target[d.id[i]];
-      after[i] = grown_radius(d, box, final_radius, grid, cells, columns, i, tally[b].overlap);
-      tally[b].add(columns.before[i], after[i], final_radius);
+      columns.after[i] = grown_radius(all, target[d.id[i]], i, overlaps, [&](const auto& look) {
+        for (const GridLevel& level : grid.levels) {
+          const double reach = d.radius[i] + level.largest_radius + level.margin;
+          for_each_run_near(level, cells.start.data(), box, d.x[i], d.y[i], reach,
+                            [&](std::uint32_t first, std::uint32_t last) {
+                              for (std::uint32_t j = first; j < last; ++j) look(j);
+                            });
+        }
+      });
     }
   });
-  d.radius.swap(after);
-  for (std::size_t b = 1; b < tally.size(); ++b) tally[0].add(tally[b]);
-  return tally[0];
+  return take_radii(executor, d, target, overlaps, columns);
 }
 
-GrowthTools parallel_growth(const Executor& executor, const Threads& threads) {
-  GrowthTools tools;
-  tools.fly = [threads](const Scene& scene, State state, const std::function<void()>& look) {
-    const auto engine = make_parallel_exact(scene, std::move(state), threads);
-    engine->forget_paths();
-    while (engine->state().time < scene.run.t_end) {
-      engine->step();
-      look();
-    }
-    return engine->state();
-  };
-  tools.step = [&executor](Disks& d, const Domain& box, const std::vector<double>& target) {
-    return parallel_grow_step(executor, d, box, target);
-  };
-  return tools;
+GrowthTally grow_by_lists(const Executor& executor, Disks& d, const Domain& box, const std::vector<double>& target,
+                          const VisitNear& visit_lists) {
+  GrowthColumns columns;
+  columns.before = d.radius;
+  set_reach(executor, d, target);
+  std::atomic<bool> overlaps = false;
+  const GrowingDisks all{d, box, columns, set_lack(executor, d, target, columns)};
+  visit_lists([&](std::size_t i, std::span<const std::uint32_t> near) {
+    columns.after[i] = grown_radius(all, target[d.id[i]], i, overlaps, [&](const auto& look) {
+      for (const std::uint32_t j : near) look(j);
+    });
+  });
+  return take_radii(executor, d, target, overlaps, columns);
 }
 
 }  // namespace carom

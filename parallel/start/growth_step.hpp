@@ -1,20 +1,27 @@
-// Growth of initial states on all cores.
+// One step of a growth on all cores: what core's grow_step gives, bit for bit, on any number of threads. But overlap is
+// looked for by disks that lack something alone, as long as any does.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
 #include <vector>
 
-#include "core/start/growth.hpp"
+#include "core/start/growth_step.hpp"
 #include "parallel/threads/executor.hpp"
-#include "parallel/threads/threads.hpp"
 
 namespace carom {
 
-// What core's grow_step gives, bit for bit, on any number of threads; the disks end up in the order of their cells.
-GrowthTally parallel_grow_step(const Executor& executor, Disks& disks, const Domain& box,
-                               const std::vector<double>& target);
+// Finds the disks near each by cells; the disks end up in the order of these.
+GrowthTally grow_by_cells(const Executor& executor, Disks& disks, const Domain& box, const std::vector<double>& target);
 
-// The tools of a growth whose steps and flights use these threads, which the executor has as well. executor must
-// outlive them.
-GrowthTools parallel_growth(const Executor& executor, const Threads& threads);
+// Calls visit(disk, near) for every disk, on all threads. near: disks of which all are that come within the sum of the
+// two growth_reach.
+using VisitNear = std::function<void(const std::function<void(std::size_t, std::span<const std::uint32_t>)>& visit)>;
+
+// The same where neighbour lists tell which disks are near each; the disks stay in their order.
+GrowthTally grow_by_lists(const Executor& executor, Disks& disks, const Domain& box, const std::vector<double>& target,
+                          const VisitNear& visit_lists);
 
 }  // namespace carom

@@ -7,7 +7,7 @@
 #include "core/start/initial_state.hpp"
 #include "core/start/placement_search.hpp"
 #include "parallel/cells/batch_cells.hpp"
-#include "parallel/start/growth_step.hpp"
+#include "parallel/start/growth_flights.hpp"
 
 namespace carom {
 

@@ -131,6 +131,30 @@ TEST(NeighbourLists, HoldAllDisksNear) {
   }
 }
 
+// What radii may grow by is taken off the distance after which disks are relisted, unless that leaves too little.
+TEST(NeighbourLists, LeaveRoomForGrowth) {
+  test::Draws draws(11);
+  Domain box;
+  box.width = box.height = 40.0;
+  Disks d = random_disks(draws, 500, box.width, box.height, true);
+  NeighbourLists lists;
+  const auto build = [&](double growth) {
+    ListLayout layout;
+    layout.growth = growth;
+    lists.build(d, box, layout, Executor(1));
+  };
+  build(0.0);
+  const double skin = lists.skin();
+  EXPECT_EQ(lists.relist_distance(false).length, skin);
+  build(0.5 * skin);
+  EXPECT_DOUBLE_EQ(lists.skin(), skin);  // but for the order of a sum over all radii
+  EXPECT_EQ(lists.growth(), 0.5 * skin);
+  EXPECT_DOUBLE_EQ(lists.relist_distance(false).length, 0.5 * skin);
+  build(0.9 * skin);
+  EXPECT_EQ(lists.growth(), 0.0);
+  EXPECT_DOUBLE_EQ(lists.relist_distance(false).length, skin);
+}
+
 bool lists_disk(const NeighbourLists& lists, std::uint32_t i, std::uint32_t j) {
   bool found = false;
   lists.for_each_neighbour(i, [&](std::uint32_t k) { found = found || k == j; });

@@ -13,7 +13,7 @@
 #include "core/physics/obstacle_contact.hpp"
 #include "core/scene/scene_text.hpp"
 #include "core/start/initial_state.hpp"
-#include "parallel/start/growth_step.hpp"
+#include "parallel/start/growth_flights.hpp"
 #include "parallel/start/random_placement.hpp"
 #include "tests/support/disks_by_hand.hpp"
 #include "tests/support/draws.hpp"
