@@ -53,10 +53,14 @@ void NeighbourLists::fill_slots(const Disks& d, std::uint32_t first_key, std::ui
   for (std::uint32_t key = first_key; key < last_key; ++key) {
     for (std::uint32_t i = cells_.start[key]; i < cells_.start[key + 1]; ++i) {
       if (!flow_.acts) move_into_cell(d, i, key);
-      const FixedPointPosition at = rows_.listed_at(i);
-      slots_.insert(cell_in(level_of(d, i), at), i, slot_position(at), radius_in_units(d.radius_of(i)));
+      fill_slot(d, i);
     }
   }
+}
+
+void NeighbourLists::fill_slot(const Disks& d, std::uint32_t i) {
+  const FixedPointPosition at = rows_.listed_at(i);
+  slots_.insert(cell_in(level_of(d, i), at), i, slot_position(at), radius_in_units(d.radius_of(i)));
 }
 
 // Rounding may have led the listed position out of the cell that the disk is sorted into, to the next one: then it is

@@ -32,6 +32,8 @@ constexpr double most_skin = 0.37;
 constexpr double most_skin_in_flow = 0.15;
 // The least skin in units of listed positions, so that their rounding does not matter.
 constexpr double least_units = 1024.0;
+// Disks of different sizes are sorted by cells of about half as many.
+constexpr std::size_t disks_of_a_place = 4;
 // The most of the skin that is kept for radii that grow.
 constexpr double most_growth = 0.6;
 
@@ -89,7 +91,21 @@ void NeighbourLists::sort(Disks& d, const ListLayout& layout, double crowded, co
     make_grid(box_, largest, count, grid_, grid_margin, are_many ? std::min(crowded, most_crowding_of_many) : crowded);
     if (layout.low < layout.high) store_rows_between(box_, layout.low, layout.high, grid_);
   }
-  sort_into_cells(d, grid_, executor, cells_);
+  if (is_sorted_by_place()) {
+    sort_by_place(d, layout, crowded, executor);
+  } else {
+    sort_into_cells(d, grid_, executor, cells_);
+  }
+}
+
+// Where radii are so different that cells have several levels: disks that are neighbours are stored near each other,
+// whatever their sizes, so that offsets to them are small.
+void NeighbourLists::sort_by_place(Disks& d, const ListLayout& layout, double crowded, const Executor& executor) {
+  const std::size_t disks = std::max(layout.disks_of_box, d.size());
+  CellGrid places;
+  make_grid(box_, smallest_radius(d), {disks / disks_of_a_place + 1}, places, grid_margin, crowded);
+  if (layout.low < layout.high) store_rows_between(box_, layout.low, layout.high, places);
+  sort_into_cells(d, places, executor, cells_);
 }
 
 // By the radii that disks may grow to. So those that have the same radius in the end are seldom in two size classes,

@@ -88,7 +88,11 @@ void NeighbourLists::list_all(const Disks& d, const Executor& executor) {
     const std::size_t per_block = std::max(disks_per_block, d.size() / most_blocks + 1);
     rows_.begin(d.size(), executor.blocks(d.size(), per_block));
     set_listed_positions(d, executor);
-    if (mode_ == EngineMode::single_queue) fill_slots(d, 0, grid_.keys);
+    if (is_sorted_by_place()) {
+      for (std::uint32_t i = 0; i < d.size(); ++i) fill_slot(d, i);
+    } else if (mode_ == EngineMode::single_queue) {
+      fill_slots(d, 0, grid_.keys);
+    }
     executor.for_ranges(d.size(), per_block,
                         [&](std::size_t b, std::size_t begin, std::size_t end) { list_block(d, b, begin, end); });
   }

@@ -267,6 +267,9 @@ class NeighbourLists {
                             const RelistDistance& relist) const;
   void choose_skin(const Disks& disks, const ListLayout& layout, double crowded);
   void sort(Disks& disks, const ListLayout& layout, double crowded, const Executor& executor);
+  // In tiles they are stored by size classes.
+  bool is_sorted_by_place() const { return mode_ == EngineMode::single_queue && grid_.levels.size() > 1; }
+  void sort_by_place(Disks& disks, const ListLayout& layout, double crowded, const Executor& executor);
   void sort_grown(Disks& disks, const ListLayout& layout, double crowded, const Executor& executor);
   void find_tiles(std::size_t disks);
   void set_listed_positions(const Disks& disks, const Executor& executor);
@@ -336,6 +339,7 @@ class NeighbourLists {
                         cell_of_listed(at.x, level.columns, box_.periodic_x()));
   }
   void fill_slots(const Disks& disks, std::uint32_t first_key, std::uint32_t last_key);
+  void fill_slot(const Disks& disks, std::uint32_t i);
   void move_into_cell(const Disks& disks, std::uint32_t i, std::uint32_t key);
   [[gnu::hot]] bool move_to_cell_of(const Disks& disks, std::uint32_t i, FixedPointPosition position,
                                     const ListRegion& region);
