@@ -23,12 +23,16 @@ DiffusionFit fit_diffusion(const std::vector<double>& time, const std::vector<do
   };
   fit.from = time[first];
   fit.value = slope(first, time.size() - 1);
-  double squares = 0.0;
-  for (std::size_t k = 0; k < slopes; ++k) {
-    const double part = slope(first + k * steps / slopes, first + (k + 1) * steps / slopes);
-    squares += (part - fit.value) * (part - fit.value);
-  }
-  fit.error = std::sqrt(squares / (slopes - 1.0) / slopes);
+  const auto error_of_parts = [&](std::size_t parts) {
+    double squares = 0.0;
+    for (std::size_t k = 0; k < parts; ++k) {
+      const double part = slope(first + k * steps / parts, first + (k + 1) * steps / parts);
+      squares += (part - fit.value) * (part - fit.value);
+    }
+    const auto n = static_cast<double>(parts);
+    return std::sqrt(squares / (n - 1.0) / n);
+  };
+  fit.error = std::max(error_of_parts(slopes), error_of_parts(slopes / 2));
   return fit;
 }
 

@@ -73,7 +73,7 @@ void put_means(const Group& group, const std::vector<double>& series, const std:
   const SampleMean mean = sample_mean(series, interval);
   group.say("mean", mean.mean);
   group.say("standard_deviation", mean.deviation);
-  group.say("standard_error", blocking_error(series));
+  group.say("standard_error", blocking_error(series, interval));
   group.say("samples", static_cast<double>(mean.samples));
 }
 

@@ -43,6 +43,29 @@ TEST(BlockingError, OfFewSamplesIsThatOfIndependentOnes) {
   EXPECT_TRUE(std::isnan(blocking_error({})));
 }
 
+// Means over intervals of many lengths, each with an error as of 1 / interval events: the short ones scatter most and
+// count least.
+TEST(BlockingError, OfAWeightedMeanIsWhatThatScattersBy) {
+  double off2 = 0.0, error2 = 0.0;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    std::vector<double> rates, lengths;
+    double sum = 0.0, weight = 0.0;
+    for (std::uint64_t k = 0; k < 100; ++k) {
+      const double length = k % 10 == 0 ? 1e-3 : 1.0;
+      rates.push_back(3.0 + normals(seed, Stream::velocity, 0, k).x / std::sqrt(length));
+      lengths.push_back(length);
+      sum += length * rates.back();
+      weight += length;
+    }
+    off2 += (sum / weight - 3.0) * (sum / weight - 3.0);
+    const double error = blocking_error(rates, lengths);
+    error2 += error * error;
+  }
+  EXPECT_GT(error2, 0.8 * off2);
+  EXPECT_LT(error2, 1.8 * off2);
+  EXPECT_TRUE(std::isnan(blocking_error({1.0, 2.0, 3.0}, {1.0, 0.0, 0.0}))) << "one that weighs something";
+}
+
 // Random walks of 400 disks with D = 0.5.
 TEST(DiffusionFit, FindsThatOfARandomWalkWithinItsError) {
   constexpr double d = 0.5, dt = 0.1;
@@ -83,6 +106,19 @@ TEST(DiffusionFit, ErrorIsThatOfTheMeanOfEightParts) {
   EXPECT_EQ(fit.from, 116.0);
   EXPECT_EQ(fit.value, 2.0);
   EXPECT_DOUBLE_EQ(fit.error, std::sqrt(8.0 / 7.0 / 8.0));
+}
+
+// Parts that go on as the one before did, two by two: as if there were four.
+TEST(DiffusionFit, ErrorKnowsOfPartsThatAreCorrelated) {
+  std::vector<double> time, square;
+  for (int k = 0; k <= 32; ++k) {
+    time.push_back(k);
+    const double before = k > 0 ? square.back() : 0.0;
+    square.push_back(k <= 16 ? 0.0 : before + 4.0 * ((k - 17) / 4 % 2 == 0 ? 1.0 : 3.0));
+  }
+  const DiffusionFit fit = fit_diffusion(time, square);
+  EXPECT_EQ(fit.value, 2.0);
+  EXPECT_DOUBLE_EQ(fit.error, std::sqrt(4.0 / 3.0 / 4.0));
 }
 
 TEST(DiffusionFit, SaysNothingOfFewSamples) {
