@@ -174,6 +174,7 @@ std::string cost_text(const Scene& scene, const Findings& f) {
   part("analysis", f.outputs.analysis_s);
   part("plots", f.outputs.plots_s);
   // The trial sees the disks fall.
+  if (has_sinks(scene) && f.population.end > f.population.start) text += "; less as sinks take disks away";
   const bool piles_up = scene.run.method == Method::pairwise && settles(scene);
   return piles_up ? text + "; once disks lie in a pile, a step takes 5 to 50 times as long, the longer the taller it is"
                   : text;
@@ -268,7 +269,7 @@ const JsonKey<Told> check_keys[] = {
     {"method", "", "`rollback`, `pairwise` or `exact`",
      [](const Told& t) -> Json { return name_of(t.scene.run.method); }},
     {"particles", "", "disks at the start", [](const Told& t) -> Json { return t.found.disks; }},
-    {"particles_at_end", "", "disks at the end, as predicted from sources and sinks",
+    {"particles_at_end", "", "disks at the end with what sources emit; fewer where sinks take some",
      [](const Told& t) -> Json { return t.found.population.end; }},
     {"width", "length", "of the box", [](const Told& t) -> Json { return t.scene.box.width; }},
     {"height", "length", "of the box", [](const Told& t) -> Json { return t.scene.box.height; }},

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/scene/scene_names.hpp"
+#include "core/step/step_start.hpp"
 
 namespace carom {
 
@@ -33,19 +34,42 @@ std::optional<Side> side_behind(const InnerWall& wall, const Domain& box) {
   return {};
 }
 
+// Does a segment move along itself while disks lie on it?
+bool is_belt(const InnerWall& wall, const Gravity& gravity) {
+  for (std::size_t k = 0; k + 1 < wall.points.size(); ++k) {
+    const double dx = wall.points[k + 1].x - wall.points[k].x, dy = wall.points[k + 1].y - wall.points[k].y;
+    if (wall.motion.along.x * dx + wall.motion.along.y * dy != 0.0 && gravity.against(-dy, dx) != 0.0) return true;
+  }
+  return false;
+}
+
+// Would friction take what rests on the wall along, which supports of a pile do not have?
+bool loses_hold(const InnerWall& wall, const Scene& scene) {
+  if (wall.sink || !wall.motion.moves() || scene.run.method != Method::pairwise) return false;
+  return scene.physics.surfaces.are_rough() && scene.physics.surfaces.walls.acts() && settles(scene) &&
+         is_belt(wall, scene.physics.gravity);
+}
+
 }  // namespace
 
 std::vector<std::string> wall_warnings(const Scene& scene) {
   std::vector<std::string> warnings;
+  const auto warn = [&](std::size_t k, const std::string& what) {
+    warnings.push_back(fmt::format("{}:{}: walls.{}: {}", scene.file, scene.walls[k].line, k, what));
+  };
   for (std::size_t k = 0; k < scene.walls.size(); ++k) {
-    const std::optional<Side> side = side_behind(scene.walls[k], scene.box);
-    if (!side) continue;
-    warnings.push_back(fmt::format(
-        "{}:{}: walls.{}: lies along the {} side, and a disk that comes to both meets {}; put it before the side, by a "
-        "thousandth of a radius{}",
-        scene.file, scene.walls[k].line, k, side_names[static_cast<std::size_t>(*side)],
-        scene.run.method == Method::rollback ? "the side" : "either, as rounding has it",
-        scene.run.method == Method::rollback ? ", and take another method" : ""));
+    if (const std::optional<Side> side = side_behind(scene.walls[k], scene.box)) {
+      warn(k, fmt::format("lies along the {} side, and a disk that comes to both meets {}; put it before the side, by "
+                          "a thousandth of a radius{}",
+                          side_names[static_cast<std::size_t>(*side)],
+                          scene.run.method == Method::rollback ? "the side" : "either, as rounding has it",
+                          scene.run.method == Method::rollback ? ", and take another method" : ""));
+    }
+    if (loses_hold(scene.walls[k], scene)) {
+      warn(k,
+           "moves along itself, and takes along what hits it, but not what rests on it: method pairwise supports a "
+           "pile without friction");
+    }
   }
   return warnings;
 }

@@ -1,4 +1,4 @@
-// Inner walls that lie along a side of the box and are to do something else than that.
+// Inner walls that will not do all that a scene may expect of them.
 #pragma once
 
 #include <string>
@@ -10,7 +10,8 @@ namespace carom {
 
 // One line for each inner wall of which a segment lies along a wall side that has another restitution, is thermal, or
 // stands still where the wall moves: of the two a disk meets either one, as rounding has it. No sinks: they take what
-// touches both.
+// touches both. One for each rough wall that moves along itself beneath disks that come to rest on it, where those bear
+// load without friction.
 std::vector<std::string> wall_warnings(const Scene& scene);
 
 }  // namespace carom

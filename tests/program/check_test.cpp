@@ -170,10 +170,10 @@ t_end = 1000.0
   EXPECT_THAT(troubles(j), HasSubstr("the sources would fill the box to a packing fraction of 0.98"));
   EXPECT_GT(j["cost_parts_s"]["steps"].get<double>(), 10.0) << "25000 disks in the mean, a million steps";
   const Json few = check("source.toml --set sources.0.limit=100");
-  EXPECT_EQ(few["particles_at_end"], 100);
-  EXPECT_THAT(few["troubles"], IsEmpty());
-  EXPECT_GT(j["memory_bytes"].get<double>(), few["memory_bytes"].get<double>() + 1e6);
-  EXPECT_THAT(carom("check source.toml").out, HasSubstr("with what sources emit up to 49999 at t = 1000"));
+  EXPECT_TRUE(few["particles_at_end"] == 100 && few["troubles"].empty()) << few;
+  EXPECT_GT(j["memory_bytes"], few["memory_bytes"].get<double>() + 1e6);
+  const std::string flow = carom("check source.toml --set box.right=sink").out;
+  EXPECT_THAT(flow, testing::ContainsRegex("emit up to 49999 at t = 1000(.|\n)*cost .*; less as sinks take disks"));
 }
 
 // Room for one disk: what the trial sees, as it comes to the end, is what the run says there.

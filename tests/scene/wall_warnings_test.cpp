@@ -50,6 +50,35 @@ TEST(WallWarnings, NoneOfOthers) {
   EXPECT_THAT(warnings("points = [[4, 10], [9, 9]]\nrestitution = 0.25"), IsEmpty()) << "touches it";
 }
 
+// A belt under disks that rest on it: the load of a support has no part along the belt, and they stayed where they were
+// without a word.
+TEST(WallWarnings, ABeltUnderAPileTakesNothingAlong) {
+  const std::vector<Override> pile{{"run.method", "pairwise"},
+                                   {"run.dt", "0.001"},
+                                   {"physics.gravity", "1.0"},
+                                   {"physics.restitution", "0.5"},
+                                   {"physics.roughness.tangential_restitution", "0.0"},
+                                   {"box.wall_roughness.tangential_restitution", "0.0"}};
+  const auto with = [&](const char* wall, const std::vector<Override>& sets) {
+    std::vector<Override> all = pile;
+    all.insert(all.end(), sets.begin(), sets.end());
+    return warnings(wall, all);
+  };
+  constexpr const char* belt = "points = [[4, 2], [9, 2]]\nmotion = { velocity = [0.1, 0] }";
+  EXPECT_THAT(
+      with(belt, {}),
+      ElementsAre("gas.toml:20: walls.0: moves along itself, and takes along what hits it, but not what rests on "
+                  "it: method pairwise supports a pile without friction"));
+  EXPECT_THAT(with("points = [[4, 2], [9, 3]]\nmotion = { vibrate = [0.1, 0], period = 1 }", {}), testing::SizeIs(1));
+  EXPECT_THAT(with("points = [[4, 2], [9, 2]]\nmotion = { vibrate = [0, 0.1], period = 1 }", {}), IsEmpty()) << "lifts";
+  EXPECT_THAT(with("points = [[4, 2], [4, 7]]\nmotion = { vibrate = [0, 0.1], period = 1 }", {}), IsEmpty())
+      << "nothing lies on it";
+  EXPECT_THAT(with("points = [[4, 2], [9, 2]]", {}), IsEmpty());
+  EXPECT_THAT(with(belt, {{"run.method", "exact"}}), IsEmpty());
+  EXPECT_THAT(with(belt, {{"physics.gravity", "0.0"}}), IsEmpty());
+  EXPECT_THAT(with(belt, {{"box.wall_roughness.friction", "0.0"}}), IsEmpty()) << "smooth";
+}
+
 TEST(WallWarnings, AreAmongThoseOfTheScene) {
   const std::string text =
       replaced(sound_scene, "[run]", std::string("[[walls]]\n") + along_top + "\nrestitution = 0.25\n[run]");
