@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import os
+
 import numpy as np
 
 from . import _arguments
+from ._carom import SceneError
 
 
 def _velocities3d(frame) -> np.ndarray:
@@ -59,10 +62,12 @@ def gsd_snapshot(frame):
     return snapshot
 
 
-def write_gsd(path, frames) -> None:
+def write_gsd(path, frames, force) -> None:
     import gsd.hoomd
 
-    path = _arguments.path(path)
+    path, force = _arguments.path(path), _arguments.flag(force, "force")
+    if os.path.isfile(path) and not force:
+        raise SceneError(f"{path}: exists already; choose another file, or replace it with force=True")
     with open(path, "ab"):  # says why it cannot be written; gsd would call it a bad file descriptor
         pass
     with gsd.hoomd.open(path, "wb") as file:

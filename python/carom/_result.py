@@ -101,9 +101,10 @@ class Trajectory:
         radii. Raises ValueError where frames have different disks."""
         return _export.mdanalysis_universe(self)
 
-    def to_gsd(self, path) -> None:
-        """Writes a GSD file, a snapshot a frame as Frame.to_gsd; the step is the frame's number."""
-        _export.write_gsd(path, self)
+    def to_gsd(self, path, force: bool = False) -> None:
+        """Writes a GSD file, a snapshot a frame as Frame.to_gsd; the step is the frame's number. Raises SceneError where the
+        file exists: force replaces it."""
+        _export.write_gsd(path, self, force)
 
     def __repr__(self):
         return f"<carom.Trajectory {self._path!r}>"

@@ -210,6 +210,17 @@ def test_gsd_says_why_a_file_cannot_be_written(result, tmp_path):
     assert (tmp_path / "run.gsd").exists()
 
 
+def test_gsd_replaces_no_file_unasked(result, tmp_path):
+    pytest.importorskip("gsd.hoomd")
+    other = tmp_path / "trajectory.xyz"
+    other.write_text("of another run")
+    with pytest.raises(carom.SceneError, match="exists already; choose another file, or replace it with force=True"):
+        result.frames.to_gsd(other)
+    assert other.read_text() == "of another run"
+    result.frames.to_gsd(other, force=True)
+    assert other.read_bytes() != b"of another run"
+
+
 def test_gsd_has_the_rounds_across_periodic_sides(result, tmp_path):
     """Unwrapped by them, as programs do for displacements, no disk jumps by half the box between two frames."""
     hoomd = pytest.importorskip("gsd.hoomd")
