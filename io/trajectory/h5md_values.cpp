@@ -1,8 +1,13 @@
 #include "io/trajectory/h5md_values.hpp"
 
-#include <array>
-#include <cstring>
+#include <fmt/format.h>
 
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <type_traits>
+
+#include "core/base/check.hpp"
 #include "core/scene/disk_group.hpp"
 #include "io/trajectory/disk_selection.hpp"
 #include "io/trajectory/h5md_layout.hpp"
@@ -10,6 +15,21 @@
 namespace carom {
 
 namespace {
+
+// A number of the file's precision.
+template <class T, class Value>
+T rounded(Value value) {
+  const T stored = static_cast<T>(value);
+  if constexpr (std::is_same_v<T, float>) {
+    if (std::isinf(stored)) {
+      throw RunError(
+          fmt::format("trajectory.h5 in single precision has no place for {:g}: it ends at 3.4e38; expected "
+                      "output.precision = \"double\"",
+                      value));
+    }
+  }
+  return stored;
+}
 
 // value(i) of the disk at each place; nothing where there is none.
 template <class T, class Value>
@@ -34,11 +54,11 @@ void fill_with_vectors(std::vector<unsigned char>& buffer, const H5mdPlaces& pla
                        Y y) {
   if (dimensions == 3) {
     fill_with(buffer, places, Vector<T, 3>{{nothing, nothing, nothing}}, [&](std::uint32_t i) {
-      return Vector<T, 3>{{static_cast<T>(x(i)), static_cast<T>(y(i)), T{}}};
+      return Vector<T, 3>{{rounded<T>(x(i)), rounded<T>(y(i)), T{}}};
     });
   } else {
     fill_with(buffer, places, Vector<T, 2>{{nothing, nothing}}, [&](std::uint32_t i) {
-      return Vector<T, 2>{{static_cast<T>(x(i)), static_cast<T>(y(i))}};
+      return Vector<T, 2>{{rounded<T>(x(i)), rounded<T>(y(i))}};
     });
   }
 }
@@ -72,7 +92,7 @@ void fill_with_values(H5mdQuantity quantity, const H5mdForm& form, const Disks& 
     case H5mdQuantity::spin:
       if (form.single) {
         return fill_with(buffer, places, h5md_single_nothing,
-                         [&](std::uint32_t i) { return static_cast<float>(disks.spin_of(i)); });
+                         [&](std::uint32_t i) { return rounded<float>(disks.spin_of(i)); });
       }
       return fill_with(buffer, places, h5md_nothing, [&](std::uint32_t i) { return disks.spin_of(i); });
     case H5mdQuantity::species:

@@ -139,6 +139,32 @@ TEST(TrajectoryH5md, SinglePrecisionIsTheNearestFloat) {
   EXPECT_FALSE(rounded.read(b));
 }
 
+// It was written as an infinite one, without a word.
+TEST(TrajectoryH5md, SinglePrecisionHasNoPlaceForTheFastest) {
+  const TestFolder folder("h5md_fast");
+  const std::string scene = folder.write("fast.toml", R"([box]
+width = 1e28
+height = 1e28
+[[disks]]
+count = 1
+positions = [[5e27, 5e27]]
+velocities = [[0.0, -1e39]]
+radius = 1e27
+mass = 1.0
+[run]
+t_end = 1e-12
+[output]
+trajectory = "h5md"
+precision = "single"
+)");
+  const std::string command = CAROM_PROGRAM " run " + scene + " --quiet --force -o " + (folder.path() / "out").string();
+  const auto [status, text] = shell(command);
+  EXPECT_EQ(status, 1);
+  EXPECT_THAT(text, HasSubstr("trajectory.h5 in single precision has no place for -1e+39: it ends at 3.4e38; expected "
+                              "output.precision = \"double\"\n"));
+  EXPECT_EQ(shell(command + " --set output.precision=double").first, 0);
+}
+
 TEST(TrajectoryH5md, KeysAreChecked) {
   const std::string start = std::string(test::sound_scene) + "[output]\n";
   EXPECT_THAT(test::complaint(start + "select = \"every 2nd\""),
