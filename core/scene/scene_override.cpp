@@ -40,10 +40,17 @@ toml::array& list_entry_owner(toml::array& list, std::string_view segment, std::
   return list;
 }
 
-// The table or list below node that segment names; a missing table is made.
-toml::node& descend(toml::node& node, std::string_view segment, const std::string& where) {
+// The table or list below node that segment names; a missing table is made, but not a list, of which next would be an
+// entry.
+toml::node& descend(toml::node& node, std::string_view segment, std::string_view next, const std::string& where) {
   if (toml::table* table = node.as_table()) {
-    if (table->get(segment) == nullptr) table->insert(segment, toml::table{});
+    if (table->get(segment) == nullptr) {
+      if (!next.empty() && std::all_of(next.begin(), next.end(), is_digit)) {
+        fail_input(where, fmt::format("no entry {}, as the scene has no {}", in_quotes(next), in_quotes(segment)),
+                   "expected a list that there is");
+      }
+      table->insert(segment, toml::table{});
+    }
     return *table->get(segment);
   }
   if (toml::array* list = node.as_array()) {
@@ -94,13 +101,13 @@ void apply_override(toml::table& root, const Override& change) {
   }
   toml::table value = parse_value(change, where);
   toml::node* owner = &root;
-  for (std::size_t k = 0; k + 1 < segments.size(); ++k) owner = &descend(*owner, segments[k], where);
+  for (std::size_t k = 0; k + 1 < segments.size(); ++k) owner = &descend(*owner, segments[k], segments[k + 1], where);
   if (toml::table* table = owner->as_table()) {
     table->insert_or_assign(segments.back(), *value.get("v"));
     return;
   }
   toml::array* list = owner->as_array();
-  if (list == nullptr) descend(*owner, segments.back(), where);  // throws
+  if (list == nullptr) descend(*owner, segments.back(), {}, where);  // throws
   std::size_t index = 0;
   list_entry_owner(*list, segments.back(), index, where);
   list->replace(list->begin() + static_cast<std::ptrdiff_t>(index), *value.get("v"));

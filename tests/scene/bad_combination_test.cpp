@@ -333,6 +333,8 @@ TEST(BadOverride, IsNamedByItsKey) {
   EXPECT_THAT(complaint(sound_scene, {{"disks.0.positions", "[[2, 2], [5, 5], [5, 6]]"}}),
               StartsWith("--set disks.0.positions: disks 1 and 2 overlap by 1 "));
   EXPECT_THAT(complaint(sound_scene, {{"disks.1.count", "2"}}), StartsWith("--set disks.1.count: no entry \"1\""));
+  EXPECT_EQ(complaint(sound_scene, {{"walls.0.restitution", "0.5"}}),
+            "--set walls.0.restitution: no entry \"0\", as the scene has no \"walls\"; expected a list that there is");
   EXPECT_THAT(complaint(sound_scene, {{"title.x", "2"}}), StartsWith("--set title.x: \"x\" lies below a string"));
   EXPECT_THAT(complaint(sound_scene, {{"run.t_end", "[1"}}), StartsWith("--set run.t_end: cannot read \"[1\""));
   EXPECT_EQ(complaint(sound_scene, {{"run.t_end", "1e999"}}),
