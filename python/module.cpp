@@ -321,6 +321,8 @@ void bind_simulation(py::module_& m) {
       .def("step_for", &PySimulation::step_for)
       .def("view", &PySimulation::view)
       .def_property_readonly("time", [](const PySimulation& s) { return s.look().time(); })
+      .def_property_readonly("exact",
+                             [](const PySimulation& s) { return s.look().scene().run.method == Method::exact; })
       .def_property_readonly("done", [](const PySimulation& s) { return s.look().done(); })
       .def_property_readonly("scene", [](const PySimulation& s) { return s.look().scene(); })
       .def_property_readonly("engine", [](const PySimulation& s) { return s.look().engine_choice().name; })

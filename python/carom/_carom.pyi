@@ -24,6 +24,7 @@ def parse_scene(text: str, name: str, folder: str, changes: list[tuple[str, str]
 
 class Simulation:
     time: float
+    exact: bool
     done: bool
     scene: Scene
     engine: str

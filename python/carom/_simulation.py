@@ -38,10 +38,10 @@ def engine(name: str, threads: Optional[int]) -> tuple:
 _engine = engine  # where an argument has the name
 
 
-def _next_multiple(interval: float, time: float) -> float:
-    """The least k >= 1 for which interval * k, as it is rounded, lies beyond time."""
+def _next_multiple(interval: float, time: float, slack: float = 0.0) -> float:
+    """The least k >= 1 for which interval * (k - slack), as it is rounded, lies beyond time."""
     k = max(1.0, np.floor(time / interval) - 1.0)  # the quotient may be rounded across a whole number, either way
-    while interval * k <= time:
+    while interval * (k - slack) <= time:
         k = max(k + 1.0, np.nextafter(k, np.inf))
     return k
 
@@ -63,6 +63,9 @@ class Simulation:
         self._sim = simulation
         self._pid = os.getpid()
         self._callbacks = []
+        # Time stepping adds up dt and comes to 0.3 where 3 * 0.1 is 0.30000000000000004: as frames, calls do not wait
+        # for the next step then. In units of the interval.
+        self._slack = 0.0 if simulation.exact else 1e-6
 
     def __reduce__(self):
         return _of_bytes, (self.to_bytes(), self._sim.threads, self._sim.engine)
@@ -89,7 +92,7 @@ class Simulation:
     def every(self, interval: float, call: Callable[["Simulation"], Any]) -> None:
         """Calls call(self) during step and run, after the first step that ends at or beyond each multiple of interval
         (simulated time, > 0) from now on, and from the time of what from_bytes takes up; once after a step that passes
-        several. What it raises ends the run there, and the simulation can go on."""
+        several. In time stepping a millionth of the interval too early is in time, as sums of dt are rounded. What it raises ends the run there, and the simulation can go on."""
         try:
             beyond = bool(interval > 0.0)
             interval = float(interval)
@@ -98,7 +101,7 @@ class Simulation:
         if not beyond:
             raise ValueError(f"interval is {interval:g}; expected a time above 0")
         call = _arguments.function(call, "the simulation")
-        self._callbacks.append([interval, _next_multiple(interval, self.time), call])
+        self._callbacks.append([interval, _next_multiple(interval, self.time, self._slack), call])
 
     def step(self, steps: int = 1) -> None:
         """Makes so many steps (dt; with exact, windows), fewer where t_end is reached. Raises PhysicsError where the
@@ -120,13 +123,13 @@ class Simulation:
         if os.getpid() != self._pid and self._sim.threads > 1:
             raise RuntimeError("this simulation began in another process, and its threads are there")
         while steps > 0 and self.time < until and not self.done:
-            due = min((interval * k for interval, k, _ in self._callbacks), default=np.inf)
+            due = min((interval * (k - self._slack) for interval, k, _ in self._callbacks), default=np.inf)
             with _in_words_of_python():
                 steps -= self._sim.step_for(steps, min(until, due), _slice)
             for entry in self._callbacks:
                 interval, k, call = entry
-                if self.time >= interval * k:
-                    entry[1] = _next_multiple(interval, self.time)
+                if self.time >= interval * (k - self._slack):
+                    entry[1] = _next_multiple(interval, self.time, self._slack)
                     call(self)
 
     def disks(self, at: Optional[float] = None) -> Frame:
@@ -156,7 +159,7 @@ class Simulation:
 
     def add(self, x, y, vx=0.0, vy=0.0, radius=1.0, mass=1.0, spin=0.0) -> Optional[int]:
         """A new disk; its id, or None where it would overlap another, an inner wall or a side that has moved in. spin counts
-        where disks are rough. Raises SceneError for numbers out of range."""
+        where disks are rough. Brownian disks forget the velocity. Raises SceneError for numbers out of range."""
         try:
             return self._sim.add(x, y, vx, vy, radius, mass, spin)
         except TypeError:
@@ -167,7 +170,7 @@ class Simulation:
         return self._sim.remove(_arguments.disk_id(id))
 
     def set_velocity(self, id: int, vx: float, vy: float) -> bool:
-        """False where there is no disk of this id."""
+        """False where there is no disk of this id. Brownian disks forget it: each step draws another."""
         id = _arguments.disk_id(id)
         try:
             return self._sim.set_velocity(id, vx, vy)
@@ -209,7 +212,7 @@ class Simulation:
         Raises SceneError where it is damaged."""
         self._sim.load_bytes(memoryview(saved).tobytes())
         for entry in self._callbacks:
-            entry[1] = _next_multiple(entry[0], self.time)
+            entry[1] = _next_multiple(entry[0], self.time, self._slack)
 
     def __repr__(self):
         try:
