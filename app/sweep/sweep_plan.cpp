@@ -15,7 +15,7 @@ namespace carom {
 
 namespace {
 
-constexpr std::string_view expected = "expected KEY=FROM:TO:COUNT, or KEY=VALUE,VALUE,...";
+constexpr std::string_view expected = "expected KEY=FROM:TO:COUNT, of two values or more, or KEY=VALUE,VALUE,...";
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;

@@ -83,8 +83,8 @@ TEST(SweepPlan, AQuoteAfterABackslashEndsNoString) {
 TEST(SweepPlan, SaysWhatIsNoRangeAndNoList) {
   for (const char* const text : {"key=0:1:1", "key=nan:1:3", "key=0:inf:2", "key=0:1:1000001", "key=0:1:0",
                                  "key=0:1:-2", "key=0:1", "key=0:1:2:3"}) {
-    EXPECT_THAT(complaint(text),
-                HasSubstr(std::string("--over: \"") + text + "\" is no range; expected KEY=FROM:TO:COUNT"));
+    EXPECT_THAT(complaint(text), HasSubstr(std::string("--over: \"") + text +
+                                           "\" is no range; expected KEY=FROM:TO:COUNT, of two values or more, or"));
   }
   EXPECT_THAT(complaint("key=0:1:2.5"), HasSubstr("\"2.5\" is no number"));
   EXPECT_THAT(complaint("key=0:1x:3"), HasSubstr("\"1x\" is no number"));
