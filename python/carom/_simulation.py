@@ -92,7 +92,8 @@ class Simulation:
     def every(self, interval: float, call: Callable[["Simulation"], Any]) -> None:
         """Calls call(self) during step and run, after the first step that ends at or beyond each multiple of interval
         (simulated time, > 0) from now on, and from the time of what from_bytes takes up; once after a step that passes
-        several. In time stepping a millionth of the interval too early is in time, as sums of dt are rounded. What it raises ends the run there, and the simulation can go on."""
+        several. In time stepping a millionth of the interval too early is in time, as sums of dt are rounded. What it
+        raises ends the run there, and the simulation can go on."""
         try:
             beyond = bool(interval > 0.0)
             interval = float(interval)
