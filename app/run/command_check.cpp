@@ -50,7 +50,7 @@ void measure_sizes(const Scene& scene, const Disks& disks, Findings& f) {
 // the densest mixtures.
 double growth_seconds(const Scene& scene, const Findings& f) {
   if (!grows(scene)) return 0.0;
-  constexpr double seconds_a_collision = 3e-6;
+  constexpr double seconds_a_collision = 2e-6;
   const double to_go = std::max(0.01, 0.86 - f.packing_fraction);
   const double collisions_a_disk = 0.5 / (to_go * to_go) * scene.growth.slowness;
   return 0.5 * seconds_a_collision * collisions_a_disk * static_cast<double>(f.disks);
