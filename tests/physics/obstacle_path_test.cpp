@@ -12,6 +12,7 @@
 #include "core/physics/exact_path.hpp"
 #include "core/physics/wall_overlap.hpp"
 #include "tests/support/disks_by_hand.hpp"
+#include "tests/support/draws.hpp"
 
 namespace carom {
 namespace {
@@ -99,6 +100,59 @@ TEST(TimeToObstacle, IsNoneWhereADiskTouchesASink) {
   motion.along = {0.0, -0.25};
   EXPECT_EQ(time_to_swinging_wall({sink, motion, motion.pace.at(0.0)}, apart, leaving, 1.0, 0.0, 1.0), 0.0);
   EXPECT_GT(time_to_swinging_wall({floor_piece, motion, motion.pace.at(0.0)}, apart, leaving, 1.0, 0.0, 1.0), 1.0);
+}
+
+// A wall that vibrates faster or slower than gravity bends a path: nothing overlaps it before the contact, which is
+// where the gap is 0.
+TEST(TimeToSwingingWall, IsThatOfTheFirstContact) {
+  constexpr double r = 0.5, span = 5.0;
+  test::Draws draws(5);
+  int contacts = 0;
+  for (int k = 0; k < 1500; ++k) {
+    WallMotion motion;
+    motion.pace = {SideMotion::Kind::sine, 0.0, 0.0, 1.0, draws.decades(0.5, 30.0)};
+    motion.along = {draws.in(-0.8, 0.8), draws.in(-0.8, 0.8)};
+    const SidePlace now = motion.pace.at(draws.in(0.0, 50.0));
+    const Gravity g(draws.in(-2.0, 2.0), draws.in(-3.0, 3.0));
+    const PathSegment p{0.0, draws.in(-2.0, 8.0), draws.in(-3.0, 3.0), draws.in(-2.0, 2.0), draws.in(-2.0, 2.0)};
+    const auto gap_at = [&](double t) {
+      const double inset = motion.pace.swung(now, t).inset;
+      const Vec2 at{p.x + p.vx * t - 0.5 * g.left * t * t - motion.along.x * inset,
+                    p.y + p.vy * t - 0.5 * g.down * t * t - motion.along.y * inset};
+      return shortest_line(floor_piece, at).distance - r;
+    };
+    if (gap_at(0.0) < 1e-3) continue;
+    const double found = time_to_swinging_wall({floor_piece, motion, now}, {p.x, p.y}, p, r, g, span);
+    const double until = std::min(found, span);
+    for (int j = 0; j < 250; ++j) ASSERT_GT(gap_at(until * j / 250.0), -1e-12) << k << ", " << j;
+    if (found == HUGE_VAL) continue;
+    ++contacts;
+    ASSERT_NEAR(gap_at(found), 0.0, 1e-11) << k;
+  }
+  EXPECT_GT(contacts, 300);
+}
+
+// Past the ends of a wall, too, where a disk may rise beside it and fall back on it.
+TEST(TimeToObstacle, IsThatOfTheFirstContact) {
+  constexpr double r = 0.5, span = 5.0;
+  test::Draws draws(6);
+  int contacts = 0;
+  for (int k = 0; k < 4000; ++k) {
+    const Gravity g(draws.in(-2.0, 2.0), draws.in(-3.0, 3.0));
+    const PathSegment p{0.0, draws.in(-1.0, 7.0), draws.in(-1.0, 1.0), draws.in(-2.0, 2.0), draws.in(-2.0, 2.0)};
+    const auto gap_at = [&](double t) {
+      const Vec2 at{p.x + p.vx * t - 0.5 * g.left * t * t, p.y + p.vy * t - 0.5 * g.down * t * t};
+      return shortest_line(floor_piece, at).distance - r;
+    };
+    if (gap_at(0.0) < 1e-3) continue;
+    const double found = time_to_obstacle(floor_piece, {p.x, p.y}, p, r, g, span);
+    const double until = std::min(found, span);
+    for (int j = 0; j < 100; ++j) ASSERT_GT(gap_at(until * j / 100.0), -1e-12) << k << ", " << j;
+    if (found > span) continue;
+    ++contacts;
+    ASSERT_NEAR(gap_at(found), 0.0, 1e-11) << k;
+  }
+  EXPECT_GT(contacts, 800);
 }
 
 // Where the end of one wall lies on the side of another, a disk there touches one of them: the side. Were each hidden
