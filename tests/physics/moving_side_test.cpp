@@ -15,6 +15,7 @@
 #include "core/measure/invariants.hpp"
 #include "core/physics/swinging_side.hpp"
 #include "core/start/initial_state.hpp"
+#include "tests/support/draws.hpp"
 #include "tests/support/engine_run.hpp"
 
 namespace carom {
@@ -61,6 +62,23 @@ TEST(SideMotion, VibratesInPiecesOfParabolas) {
     const double joint = k * m.half();
     EXPECT_NEAR(m.at(joint).speed, m.at(std::nextafter(joint, 0.0)).speed, 1e-12);
     EXPECT_NEAR(m.at(joint).inset, 3.0, 1e-13);
+  }
+}
+
+// A time at which two pieces meet belongs to the later one, the number before it to the earlier one, however the
+// quotient by half a period is rounded: a window that ends with a piece has a length.
+TEST(SideMotion, PiecesMeetAtWholeHalfPeriods) {
+  test::Draws draws(11);
+  SideMotion m;
+  m.kind = SideMotion::Kind::parabolas;
+  m.amplitude = 0.5;
+  for (int n = 0; n < 20000; ++n) {
+    m.period = draws.decades(1e-3, 1e3);
+    const double k = std::floor(draws.decades(1.0, 1e7));
+    const double joint = k * m.half();
+    ASSERT_EQ(m.piece(joint), k) << m.period;
+    ASSERT_EQ(m.piece(std::nextafter(joint, 0.0)), k - 1.0) << m.period;
+    ASSERT_GT(m.piece_end(joint), joint);
   }
 }
 
