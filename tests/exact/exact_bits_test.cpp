@@ -111,6 +111,22 @@ TEST(ExactBits, OfFramesOfAShear) {
   EXPECT_GT(end.counters.collisions, 20U);
 }
 
+// Where disks nearly go with the flow, lists are strained and built anew long before a disk leaves its place in them,
+// and the images above go round a narrow box again and again meanwhile.
+TEST(ExactBits, OfAShearWhoseListsAreStrainedAgainAndAgain) {
+  for (const double width : {12.0, 60.0}) {
+    const Scene scene = make_scene({width, 18,
+                                    "left = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = "
+                                    "\"periodic\"\nshear_rate = -6.0",
+                                    "restitution = 0.5",
+                                    "[[disks]]\ncount = 80\npositions = \"random\"\nvelocities = { maxwell = 1.0 "
+                                    "}\nradius = { uniform = [0.2, 0.4] }\nmass = 1.0\n",
+                                    3, ""});
+    const State end = expect_bits_of_reference(scene, initial_state(scene));
+    EXPECT_GT(end.counters.collisions, 50U);
+  }
+}
+
 // In the last window a disk comes to a periodic side to the last bit: it is at 0, not at the box's width.
 TEST(ExactBits, OfADiskOnAPeriodicSideAtTheEnd) {
   const Domain box = test::box_of(16.0, 8.0, true, true);
