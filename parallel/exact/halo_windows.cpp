@@ -176,8 +176,9 @@ double HaloWindows::growth() const {
 
 bool HaloWindows::complete_lists() {
   exchange_disks();
-  return std::all_of(parts_.begin(), parts_.end(),
-                     [&](const auto& part) { return part->has_all_near_own(state_.disks); });
+  std::vector<unsigned char> has_all(parts_.size());
+  executor_.run(parts_.size(), [&](std::size_t r) { has_all[r] = parts_[r]->has_all_near_own(state_.disks) ? 1 : 0; });
+  return std::find(has_all.begin(), has_all.end(), 0) == has_all.end();
 }
 
 void HaloWindows::visit_lists(const std::function<void(std::size_t, std::span<const std::uint32_t>)>& visit) const {
