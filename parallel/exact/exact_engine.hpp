@@ -17,9 +17,9 @@ namespace carom {
 std::unique_ptr<Engine> make_parallel_exact(const Scene& scene, State initial, const Threads& threads,
                                             const BorderWatch& watch = {});
 
-// The same for flights one after the other, between which radii grow: neighbour lists last from one to the next. Two
-// disks of which neither lists the other do not come within their radii and twice a growth, which is given for the
-// flights to come, of each other.
+// The same for flights one after the other, between which radii grow: neighbour lists last from one to the next. They
+// are built with room for a growth: two disks that do not list each other stay further apart than the sum of their
+// radii of that time and twice the growth.
 class ExactFlights : public Engine {
  public:
   // After end_flight: goes on with this state, up to time t_end of it. growth: by how much each radius may grow after
