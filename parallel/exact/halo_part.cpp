@@ -141,10 +141,12 @@ void HaloPart::take_radii(const Disks& all) {
   for (std::size_t i = 0; i < radius.size(); ++i) radius[i] = all.radius[slots_[i]];
 }
 
-// Those that are within the halo are ghosts. Two disks further apart than twice the largest radius that is allowed for
-// leave each other's growth alone.
+// Two disks further apart than twice the largest radius that is allowed for leave each other's growth alone. Of the
+// next part's own disks those within the halo are ghosts; a third part's are not, but that is a halo away at least. So
+// if no own disk of any part is further beyond an end than half of what is left of a halo, none is near one that is not
+// here.
 bool HaloPart::has_all_near_own(const Disks& all) const {
-  const double room = halo_ - 2.0 * run_.largest_radius();
+  const double room = 0.5 * (halo_ - 2.0 * run_.largest_radius());
   const std::vector<double>& c = ends().along_x ? all.x : all.y;
   const KnownBand& between = ends().between;
   return std::all_of(own_.begin(), own_.end(), [&](std::uint32_t i) {

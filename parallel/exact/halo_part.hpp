@@ -74,7 +74,8 @@ class HaloPart {
 
   // Between windows. All radii have grown, by no more than lists allow for.
   void take_radii(const Disks& all);
-  // When offers have been taken: are all disks that an own disk may grow against disks of this part? all: the columns.
+  // When offers have been taken: are all own disks where, if that holds in all parts, whatever they may grow against is
+  // here, too? all: the columns.
   bool has_all_near_own(const Disks& all) const;
   // Calls visit(slot, near) for each own disk; near: the slots of the disks that it lists.
   void visit_lists(const std::function<void(std::size_t, std::span<const std::uint32_t>)>& visit) const;
