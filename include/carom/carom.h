@@ -203,8 +203,9 @@ CAROM_API carom_status carom_cast_ray(const carom_world* world, double x, double
 
 /* --- Saving ------------------------------------------------------------------------------------------------------- */
 
-/* Everything from which to go on, bit for bit, in a file that `carom resume` takes too. CAROM_FAILED where it cannot be
- * written; what was there before stays then. */
+/* Everything from which to go on, bit for bit, in a file that `carom resume` takes too, in place of an older one.
+ * CAROM_INPUT where a file that is no checkpoint has the name, CAROM_FAILED where it cannot be written; what was there
+ * before stays then. */
 CAROM_API carom_status carom_save(const carom_world* world, const char* path);
 /* The same in memory: *size bytes, CAROM_INPUT where room is less. bytes may be null where only the size is asked for;
  * it changes with every step. */

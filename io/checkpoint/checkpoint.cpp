@@ -281,6 +281,14 @@ std::string checkpoint_bytes(const RunRecord& record, const State& state) {
   return bytes.append(reinterpret_cast<const char*>(&tail.checksum), sizeof tail.checksum);
 }
 
+bool is_another_file(const std::string& path) {
+  if (!std::filesystem::exists(path)) return false;
+  std::array<char, Header{}.magic.size()> first{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(first.data(), first.size());
+  return file.gcount() > 0 && first != Header{}.magic;
+}
+
 Checkpoint checkpoint_from_bytes(std::string_view bytes, const std::string& name) {
   Header header;
   Tail tail;

@@ -48,7 +48,12 @@ struct CheckpointInPieces {
 };
 CheckpointInPieces read_checkpoint_in_pieces(const std::string& path);
 
-// The same in memory: the bytes of the file, and back. name is for messages. Throws InputError as read_checkpoint does.
+// Is there something of this name that no checkpoint may take the place of: anything but an older checkpoint, of any
+// version, or an empty file?
+bool is_another_file(const std::string& path);
+
+// A checkpoint in memory: the bytes of the file, and back. name is for messages. Throws InputError as read_checkpoint
+// does.
 std::string checkpoint_bytes(const RunRecord& record, const State& state);
 Checkpoint checkpoint_from_bytes(std::string_view bytes, const std::string& name);
 

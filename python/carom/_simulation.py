@@ -201,7 +201,8 @@ class Simulation:
         return None if hit is None else Hit(*hit)
 
     def save(self, path) -> None:
-        """Everything from which to go on, bit for bit, in a file that `carom resume` takes too."""
+        """Everything from which to go on, bit for bit, in a file that `carom resume` takes too, in place of an older one.
+        Raises SceneError where a file that is no checkpoint has the name."""
         self._sim.save(_arguments.path(path))
 
     def to_bytes(self) -> bytes:

@@ -232,6 +232,7 @@ std::string Simulation::save() const {
 }
 
 void Simulation::save(const std::string& file) const {
+  if (is_another_file(file)) fail_input(file, "is there, and is no checkpoint", "expected a name for a checkpoint");
   const std::string beside = file + ".new";
   try {
     write_checkpoint(beside, record(), state());

@@ -77,8 +77,9 @@ class Simulation {
   // Warnings of the physics since the last call, one line each.
   std::vector<std::string> take_warnings();
 
-  // Everything from which to go on, bit for bit; the bytes are those of the file. Throws RunError where the file cannot
-  // be written, and then leaves what was there before.
+  // Everything from which to go on, bit for bit; the bytes are those of the file, which takes the place of an older
+  // one. Throws InputError where another file has the name, RunError where it cannot be written; both leave what was
+  // there.
   std::string save() const;
   void save(const std::string& file) const;
 

@@ -209,6 +209,21 @@ TEST(CaromC, DisksInARectangleMayBeFixedOnes) {
   EXPECT_THROW(world.disks_in(nan_number, 0, 20, 10), carom::Error);
 }
 
+TEST(CaromC, SavesOverCheckpointsAlone) {
+  const carom::test::TestFolder folder("carom_c_save_over");
+  World world = World::from_text(gas);
+  const std::string thesis = folder.write("thesis.txt", "all of it");
+  EXPECT_EQ(carom_save(world.get(), thesis.c_str()), CAROM_INPUT);
+  EXPECT_STREQ(carom_error(world.get()),
+               (thesis + ": is there, and is no checkpoint; expected a name for a checkpoint").c_str());
+  EXPECT_EQ(carom::test::text_of(thesis), "all of it");
+  const std::string empty = folder.write("empty", "");
+  world.save(empty);
+  world.step(10);
+  world.save(empty);
+  EXPECT_EQ(World::from_checkpoint(empty).hash(), world.hash());
+}
+
 TEST(CaromC, SavesAndLoadsInMemoryAndInFiles) {
   const carom::test::TestFolder folder("carom_c_save");
   World world = World::from_text(gas);
