@@ -282,7 +282,8 @@ std::string checkpoint_bytes(const RunRecord& record, const State& state) {
 }
 
 bool is_another_file(const std::string& path) {
-  if (!std::filesystem::exists(path)) return false;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
   std::array<char, Header{}.magic.size()> first{};
   std::ifstream file(path, std::ios::binary);
   file.read(first.data(), first.size());

@@ -48,8 +48,7 @@ struct CheckpointInPieces {
 };
 CheckpointInPieces read_checkpoint_in_pieces(const std::string& path);
 
-// Is there something of this name that no checkpoint may take the place of: anything but an older checkpoint, of any
-// version, or an empty file?
+// Is there a file of this name that is neither a checkpoint, of any version, nor empty? Pipes and devices are no files.
 bool is_another_file(const std::string& path);
 
 // A checkpoint in memory: the bytes of the file, and back. name is for messages. Throws InputError as read_checkpoint
