@@ -16,8 +16,9 @@ struct BorderDisks {
   Disks own, others;  // this rank's, and those of its neighbours
 };
 
-// All pairs of a rank and a neighbour whose centres are no further from each other than the radius of either plus
-// reach (length) are among own and others, on both ranks. Collective.
+// All pairs of a rank and a neighbour whose centres are no further from each other than reach (length) plus the smaller
+// of their radii are among own and others, on both ranks, but for those that meet across the slab of a third rank.
+// excursion: excursion_over_ranks. Collective.
 BorderDisks disks_at_borders(Ranks& ranks, const Slab& slab, const Domain& box, const Disks& own, double reach,
                              double excursion);
 

@@ -1,0 +1,219 @@
+// What ranks know of pairs whose disks have left their slabs, held against a look at all disks: how far they have left
+// them, who is at a border, whether pairs are of neighbours, and what is measured of pairs by distance and of psi6.
+#include "parallel/slabs/border_disks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "core/measure/bond_order.hpp"
+#include "core/measure/pair_records.hpp"
+#include "parallel/ranks/local_ranks.hpp"
+#include "parallel/slabs/slab_orders.hpp"
+#include "parallel/slabs/slab_pairs.hpp"
+#include "tests/support/disks_by_hand.hpp"
+
+namespace carom {
+namespace {
+
+constexpr DiskId disks = 320;
+constexpr double width = 40.0, height = 60.0;
+
+enum class Way { up, down, both };
+
+// Disks, in some gases more of them below than above, that were shared out among slabs, of which the second is the
+// thinnest, and have moved since, every fourth one far. Where they have gone both ways, two have come as near to each
+// other across the second slab as any may.
+struct Gas {
+  Gas(bool periodic, Way way, double furthest, std::uint64_t seed) : box(test::box_of(width, height, true, periodic)) {
+    test::Draws draws(seed);
+    const double thickness = draws.in(6.5, 14.0), low = draws.in(15.0, 17.0);
+    cut.bounds = {0.0, low, low + thickness, height};
+    if (seed % 2 == 0) cut.bounds.insert(cut.bounds.end() - 1, 0.5 * (low + thickness + height));
+    for (DiskId id = 0; id < disks; ++id) {
+      const double even = draws.in(0.0, 1.0), before = height * (seed % 3 == 0 ? even * even : even);
+      const double most = id % 4 == 0 ? furthest : 0.2 * furthest;
+      const double moved = draws.in(way == Way::up ? 0.0 : -most, way == Way::down ? 0.0 : most);
+      add({draws.in(0.0, width), before + moved}, draws.in(0.1, 0.5), cut.rank_at(before));
+    }
+    if (way != Way::both) return;
+    add({0.5 * width, cut.high(0) + furthest}, 0.1, 0);
+    add({0.5 * width, cut.low(2) - furthest}, 0.1, 2);
+  }
+
+  void add(Vec2 place, double radius, int rank) {
+    const double y = box.periodic_y() ? wrap(place.y, height) : std::clamp(place.y, 0.0, height);
+    push_back(all, {place.x, y, 0.0, 0.0, radius, 1.0, static_cast<DiskId>(owner.size())}, {.radius = true});
+    owner.push_back(rank);
+  }
+
+  Disks of_rank(int rank) const {
+    Disks own;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (owner[i] == rank) push_back(own, disk_at(all, i), {.radius = true});
+    }
+    return own;
+  }
+  bool are_neighbours(int one, int other) const {
+    const int apart = std::abs(one - other);
+    return apart == 1 || (box.periodic_y() && apart == cut.ranks() - 1);
+  }
+  double distance(std::size_t i, std::size_t k) const {
+    return std::sqrt(nearest_distance2({all.x[i] - all.x[k], all.y[i] - all.y[k]}, box));
+  }
+  // How far the disk that is furthest from its slab is from it, through the sides of a periodic box.
+  double excursion() const {
+    double furthest = 0.0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      double left = HUGE_VAL;
+      for (const double image : {all.y[i] - height, all.y[i], all.y[i] + height}) {
+        left = std::min(left, std::abs(image - std::clamp(image, cut.low(owner[i]), cut.high(owner[i]))));
+      }
+      furthest = std::max(furthest, left);
+    }
+    return furthest;
+  }
+  // Of two disks whose ranks are neither the same nor neighbours; length.
+  double least_distance_of_strangers() const {
+    double least = HUGE_VAL;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k) {
+        if (owner[i] == owner[k] || are_neighbours(owner[i], owner[k])) continue;
+        least = std::min(least, distance(i, k));
+      }
+    }
+    return least;
+  }
+
+  Domain box;
+  SlabCut cut;
+  Disks all;
+  std::vector<int> owner;
+};
+
+// Gases in boxes with walls and periodic ones, on three and four ranks.
+void for_gases(const std::function<void(const Gas&, std::uint64_t)>& see) {
+  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+    for (const bool periodic : {false, true}) {
+      for (const Way way : {Way::up, Way::down, Way::both}) {
+        for (const double furthest : {0.0, 0.7, 2.9}) {
+          see(Gas(periodic, way, furthest, seed), seed);
+          if (testing::Test::HasFailure()) return;
+        }
+      }
+    }
+  }
+}
+
+TEST(ExcursionOverRanks, IsThatOfTheDiskFurthestFromItsSlab) {
+  for_gases([](const Gas& gas, std::uint64_t) {
+    const double expected = gas.excursion();
+    run_on_local_ranks(gas.cut.ranks(), [&](Ranks& ranks) {
+      const Slab slab = slab_of(gas.cut, gas.box, ranks.rank());
+      EXPECT_NEAR(excursion_over_ranks(ranks, slab, gas.box, gas.of_rank(ranks.rank())), expected, 1e-12 * height);
+    });
+  });
+}
+
+// Times that each disk is among some.
+std::vector<int> times_in(const Disks& some) {
+  std::vector<int> times(disks + 2, 0);
+  for (const DiskId id : some.id) ++times[id];
+  return times;
+}
+
+// Every pair of two neighbours within reach, on both ranks; and no disk that is too deep in its slab for one.
+TEST(DisksAtBorders, AreThoseOfAllPairsOfNeighbours) {
+  std::atomic<int> pairs = 0;
+  for_gases([&](const Gas& gas, std::uint64_t seed) {
+    const double reach = 0.3 * static_cast<double>(seed), excursion = gas.excursion();
+    // Each of three ranks in a periodic box is a neighbour of the others; further apart, they may meet across the
+    // third.
+    const bool all_are_neighbours = gas.are_neighbours(0, 2);
+    const double across_border = all_are_neighbours ? gas.cut.thinnest() - 2.0 * excursion : HUGE_VAL;
+    run_on_local_ranks(gas.cut.ranks(), [&](Ranks& ranks) {
+      const int rank = ranks.rank();
+      const Slab slab = slab_of(gas.cut, gas.box, rank);
+      const auto border = disks_at_borders(ranks, slab, gas.box, gas.of_rank(rank), reach, excursion);
+      const std::vector<int> own = times_in(border.own), others = times_in(border.others);
+      for (std::size_t i = 0; i < gas.all.size(); ++i) {
+        const Beyond b = beyond(slab, gas.box, gas.all.y[i]);
+        const double depth = -std::max(slab.has_lower ? b.lower : -HUGE_VAL, slab.has_upper ? b.upper : -HUGE_VAL);
+        const bool deep = depth > gas.all.radius[i] + reach + excursion + 1e-9;
+        ASSERT_LE(own[i], gas.owner[i] == rank && !deep ? 1 : 0);
+        ASSERT_LE(others[i], gas.are_neighbours(gas.owner[i], rank) ? 1 : 0);
+        if (gas.owner[i] != rank) continue;
+        for (std::size_t k = 0; k < gas.all.size(); ++k) {
+          if (!gas.are_neighbours(gas.owner[k], rank)) continue;
+          const double apart = gas.distance(i, k);
+          if (apart > std::min(gas.all.radius[i], gas.all.radius[k]) + reach || apart >= across_border) continue;
+          ASSERT_TRUE(own[i] == 1 && others[k] == 1) << i << " of " << rank << ", " << k << " of " << gas.owner[k];
+          ++pairs;
+        }
+      }
+    });
+  });
+  EXPECT_GT(pairs, 5000);
+}
+
+TEST(IsWithinNeighbours, UnlessTwoDisksOfOtherRanksMayBeInReach) {
+  for_gases([](const Gas& gas, std::uint64_t) {
+    const double excursion = gas.excursion();
+    const double may_be_near = gas.cut.thinnest() - 2.0 * excursion;
+    EXPECT_TRUE(is_within_neighbours(gas.cut, gas.box, may_be_near - 1e-6, excursion));
+    EXPECT_FALSE(is_within_neighbours(gas.cut, gas.box, may_be_near, excursion));
+    EXPECT_FALSE(is_within_neighbours(gas.cut, gas.box, gas.least_distance_of_strangers(), excursion));
+  });
+}
+
+// Ranks tell what is right or that they cannot tell; they can where all pairs within reach are of neighbours.
+TEST(PairsOverRanks, AreThoseOfAllDisksOrNotKnown) {
+  std::atomic<int> known = 0, unknown = 0;
+  for_gases([&](const Gas& gas, std::uint64_t seed) {
+    AnalysisPlan plan;
+    plan.wanted[static_cast<std::size_t>(Quantity::pair_correlation)] = true;
+    plan.pairs = {2.0 + 0.7 * static_cast<double>(seed), 30};
+    const auto expected = pairs_of_plan(plan, gas.all, gas.box, run_in_order);
+    const bool can_tell = is_within_neighbours(gas.cut, gas.box, plan.pairs.r_max, gas.excursion());
+    run_on_local_ranks(gas.cut.ranks(), [&](Ranks& ranks) {
+      const auto pairs = pairs_over_ranks(ranks, plan, gas.box, gas.of_rank(ranks.rank()), gas.cut, run_in_order);
+      ASSERT_EQ(pairs.has_value(), can_tell);
+      ++(can_tell ? known : unknown);
+      if (!can_tell) return;
+      ASSERT_EQ(pairs->size(), 1U);
+      EXPECT_EQ(pairs->front().centres, expected.front().centres);
+      EXPECT_EQ(pairs->front().counts, expected.front().counts);
+    });
+  });
+  EXPECT_GT(known, 100);
+  EXPECT_GT(unknown, 100);
+}
+
+// Either all ranks can tell or none.
+TEST(OrdersOverRanks, AreThoseOfAllDisksOrNotKnown) {
+  int known = 0, unknown = 0;
+  for_gases([&](const Gas& gas, std::uint64_t) {
+    const auto expected = bond_orders(gas.all, gas.box);
+    std::atomic<int> knowing = 0;
+    run_on_local_ranks(gas.cut.ranks(), [&](Ranks& ranks) {
+      const auto orders = orders_over_ranks(ranks, {}, gas.box, gas.of_rank(ranks.rank()), gas.cut);
+      if (!orders) return;
+      ++knowing;
+      for (std::size_t i = 0; i < orders->size(); ++i) {
+        EXPECT_EQ(orders->vx[i], expected[orders->id[i]].x);
+        EXPECT_EQ(orders->vy[i], expected[orders->id[i]].y);
+      }
+    });
+    ++(knowing > 0 ? known : unknown);
+    EXPECT_EQ(knowing, knowing > 0 ? gas.cut.ranks() : 0);
+  });
+  EXPECT_GT(known, 40);
+  EXPECT_GT(unknown, 40);
+}
+
+}  // namespace
+}  // namespace carom
