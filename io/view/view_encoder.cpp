@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -35,6 +36,29 @@ Vec2 step_between(const ViewAxes& axes, std::array<std::uint32_t, 2> from, std::
   dx += take_nearest(axes[1], dy) * offset / axes[0].quantum();
   take_nearest(axes[0], dx);
   return {dx * axes[0].quantum(), dy * axes[1].quantum()};
+}
+
+// The storage indices of the disks whose id is a multiple.
+std::vector<std::size_t> multiples_of(DiskId every, const std::vector<DiskId>& ids) {
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (ids[i] % every == 0) chosen.push_back(i);
+  }
+  return chosen;
+}
+
+void sort_by_place(ViewFrame& view) {
+  const std::vector<std::uint32_t>& place = view.place;
+  if (std::adjacent_find(place.begin(), place.end(), std::greater_equal<>()) == place.end()) return;
+  std::vector<std::size_t> order(place.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return place[a] < place[b]; });
+  ViewFrame sorted = view;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    sorted.place[k] = place[order[k]];
+    for (std::size_t axis = 0; axis < 2; ++axis) sorted.at[axis][k] = view.at[axis][order[k]];
+  }
+  view = std::move(sorted);
 }
 
 }  // namespace
@@ -88,24 +112,19 @@ double ViewEncoder::fast_speed() const {
   return speeds_ > 0.0 ? std::min(std::sqrt(fastest_), 2.5 * std::sqrt(squares_ / speeds_)) : 0.0;
 }
 
-void ViewEncoder::add(const TrajectoryFrame& frame) {
+// The disks that are shown, in the order of the trajectory's frame. A new disk gets a place.
+ViewFrame ViewEncoder::encoded(const TrajectoryFrame& frame) {
   const Disks& disks = frame.disks;
   const ViewAxes axes = axes_;  // nothing that is written below can be part of it
-  ViewFrame view;
-  std::vector<std::size_t> shown;
-  if (every_ > 1) {
-    for (std::size_t i = 0; i < disks.size(); ++i) {
-      if (disks.id[i] % every_ == 0) shown.push_back(i);
-    }
-  }
-  const std::size_t count = every_ > 1 ? shown.size() : disks.size();
+  const std::vector<std::size_t> chosen = every_ > 1 ? multiples_of(every_, disks.id) : std::vector<std::size_t>{};
+  const std::size_t count = every_ > 1 ? chosen.size() : disks.size();
   const ViewFrame* const last = waiting_.back().empty() ? nullptr : &waiting_.back().back();
+  ViewFrame view;
   view.place.resize(count);
   for (auto& column : view.at) column.resize(count);
   const double offset = offset_at(frame.time);
-  bool ascending = true;
   for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t i = every_ > 1 ? shown[k] : k;
+    const std::size_t i = every_ > 1 ? chosen[k] : k;
     // Mostly the same disks follow each other in the same order as in the frame before.
     const bool as_before = last != nullptr && k < last->place.size() && disks_.id[last->place[k]] == disks.id[i];
     view.place[k] = as_before ? last->place[k] : place_of(frame, i);
@@ -113,21 +132,13 @@ void ViewEncoder::add(const TrajectoryFrame& frame) {
     // A place just below the top of a sheared box becomes its image at the bottom, which is displaced.
     const bool below = offset != 0.0 && view.at[1][k] == 0 && disks.y[i] > 0.5 * axes[1].length;
     view.at[0][k] = axes[0].encode(below ? disks.x[i] - offset : disks.x[i]);
-    ascending = ascending && (k == 0 || view.place[k] > view.place[k - 1]);
   }
-  if (!ascending) {
-    std::vector<std::size_t> order(count);
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return view.place[a] < view.place[b]; });
-    ViewFrame sorted = view;
-    for (std::size_t k = 0; k < count; ++k) {
-      sorted.place[k] = view.place[order[k]];
-      for (std::size_t axis = 0; axis < 2; ++axis) sorted.at[axis][k] = view.at[axis][order[k]];
-    }
-    view = std::move(sorted);
-  }
-  look_at_speeds(view, frame.time);
-  times_.push_back(frame.time);
+  return view;
+}
+
+// Appends it to the block that grows, which ends with it where it is large enough.
+void ViewEncoder::add_to_block(ViewFrame&& view) {
+  const std::size_t count = view.place.size();
   disk_frames_ += count;
   in_last_ += count;
   waiting_.back().push_back(std::move(view));
@@ -136,6 +147,14 @@ void ViewEncoder::add(const TrajectoryFrame& frame) {
   in_last_ = 0;
   if (waiting_.size() >= at_once_) pack_waiting();
   waiting_.emplace_back();
+}
+
+void ViewEncoder::add(const TrajectoryFrame& frame) {
+  ViewFrame view = encoded(frame);
+  sort_by_place(view);
+  look_at_speeds(view, frame.time);
+  times_.push_back(frame.time);
+  add_to_block(std::move(view));
 }
 
 void ViewEncoder::pack_waiting() {

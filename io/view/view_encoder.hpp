@@ -45,6 +45,8 @@ class ViewEncoder {
 
  private:
   std::uint32_t place_of(const TrajectoryFrame& frame, std::size_t i);
+  ViewFrame encoded(const TrajectoryFrame& frame);
+  void add_to_block(ViewFrame&& view);
   void pack_waiting();
   void look_at_speeds(const ViewFrame& frame, double time);
   double offset_at(double time) const;  // of the images above; 0 where the box is not sheared
@@ -55,7 +57,7 @@ class ViewEncoder {
   BlockRunner run_;
   Shear shear_;
   ViewDisks disks_;
-  // Of disks whose place is not their rank by id. Only looked up: its order, which libraries choose, reaches no byte.
+  // Of each disk in disks_, by id. Only looked up: its order, which libraries choose, reaches no byte.
   std::unordered_map<DiskId, std::uint32_t> places_;
   std::vector<double> times_;
   std::vector<std::vector<ViewFrame>> waiting_;  // frames of blocks to come; the last one grows
