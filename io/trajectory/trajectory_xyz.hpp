@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/block_runner.hpp"
@@ -84,12 +85,15 @@ class XyzReader : public TrajectoryReader {
   void follow(const std::string& path) override { path_ = path; }  // it stays open
 
  private:
-  // Where in a line the columns begin; of `all` columns.
-  struct Layout {
-    std::size_t position = 0, velocity = 0, radius = 0, mass = 0, id = 0, group = 0, spin = 0, image = 0, all = 0;
-    std::size_t position_width = 0, velocity_width = 0;
-    bool has_group = false, has_spin = false, has_image = false;
+  // Columns of a line that belong together: a vector has two or three. width 0: the file does not have them.
+  struct Columns {
+    std::size_t first = 0, width = 0;
   };
+  struct Layout {
+    Columns position, velocity, radius, mass, id, group, spin, image;
+    std::size_t all = 0;  // how many a line has
+  };
+  struct Property;
 
   [[noreturn]] void fail(const std::string& what) const;
   bool next_line();
@@ -100,6 +104,7 @@ class XyzReader : public TrajectoryReader {
   bool read_count(std::size_t& count);
   bool cut_short() const;
   void read_layout(std::string_view properties);
+  [[noreturn]] void refuse_properties(std::string_view what) const;
   void read_header(XyzFrame& frame);
   Domain read_box() const;
   void read_disk(XyzFrame& frame) const;

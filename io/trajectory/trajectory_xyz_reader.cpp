@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <functional>
 #include <numeric>
-#include <tuple>
+#include <optional>
 
 #include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
@@ -79,24 +79,43 @@ std::string_view value_of(std::string_view line, std::string_view key) {
   }
 }
 
+constexpr std::size_t most_columns = 1000;  // beyond any file that makes sense
+
+// How many columns a property has; absent where the word is no such number.
+std::optional<std::size_t> width_of(std::string_view word) {
+  std::size_t width = 0;
+  const auto result = std::from_chars(word.data(), word.data() + word.size(), width);
+  if (result.ec != std::errc{} || width == 0 || width > most_columns) return std::nullopt;
+  return width;
+}
+
 }  // namespace
+
+// What the reader takes from a frame; all other properties are skipped.
+struct XyzReader::Property {
+  std::string_view name;
+  Columns Layout::*columns;
+  bool is_vector = false, is_needed = true;
+  static const std::array<Property, 8> known;
+};
+
+const std::array<XyzReader::Property, 8> XyzReader::Property::known{
+    {{.name = "pos", .columns = &Layout::position, .is_vector = true},
+     {.name = "velo", .columns = &Layout::velocity, .is_vector = true},
+     {.name = "radius", .columns = &Layout::radius},
+     {.name = "mass", .columns = &Layout::mass},
+     {.name = "id", .columns = &Layout::id},
+     {.name = "group", .columns = &Layout::group, .is_needed = false},
+     {.name = "spin", .columns = &Layout::spin, .is_needed = false},
+     {.name = "map_shift", .columns = &Layout::image, .is_vector = true, .is_needed = false}}};
+
+void XyzReader::refuse_properties(std::string_view what) const {
+  fail(fmt::format("expected Properties={}, or more columns; {}", xyz_properties, what));
+}
 
 // name:type:number of columns, and so on.
 void XyzReader::read_layout(std::string_view properties) {
-  const auto refuse = [&](std::string_view what) {
-    fail(fmt::format("expected Properties={}, or more columns; {}", xyz_properties, what));
-  };
   Layout layout;
-  std::size_t radius_width = 0, mass_width = 0, id_width = 0, group_width = 0, spin_width = 0, image_width = 0;
-  std::array<std::tuple<std::string_view, std::size_t*, std::size_t*>, 8> known{
-      {{"pos", &layout.position, &layout.position_width},
-       {"velo", &layout.velocity, &layout.velocity_width},
-       {"radius", &layout.radius, &radius_width},
-       {"mass", &layout.mass, &mass_width},
-       {"id", &layout.id, &id_width},
-       {"group", &layout.group, &group_width},
-       {"spin", &layout.spin, &spin_width},
-       {"map_shift", &layout.image, &image_width}}};
   std::string_view rest = properties;
   const auto next_word = [&rest] {
     const std::size_t end = std::min(rest.find(':'), rest.size());
@@ -108,28 +127,21 @@ void XyzReader::read_layout(std::string_view properties) {
     const std::string_view name = next_word();
     next_word();  // the type
     const std::string_view width_text = next_word();
-    std::size_t width = 0;
-    const auto result = std::from_chars(width_text.data(), width_text.data() + width_text.size(), width);
-    constexpr std::size_t most_columns = 1000;  // beyond any file that makes sense
-    if (result.ec != std::errc{} || width == 0 || width > most_columns || layout.all > most_columns) {
-      refuse(fmt::format("'{}' is no number of columns", width_text));
+    const std::optional<std::size_t> width = width_of(width_text);
+    if (!width || layout.all > most_columns) {
+      refuse_properties(fmt::format("'{}' is no number of columns", width_text));
     }
-    for (const auto& [known_name, begin, known_width] : known) {
-      if (name != known_name) continue;
-      *begin = layout.all;
-      *known_width = width;
+    for (const Property& property : Property::known) {
+      if (name == property.name) layout.*property.columns = {layout.all, *width};
     }
-    layout.all += width;
+    layout.all += *width;
   }
-  for (const auto& [name, begin, width] : known) {
-    const bool vector = name == "pos" || name == "velo" || name == "map_shift";
-    if ((name == "group" || name == "spin" || name == "map_shift") && *width == 0) continue;
-    if (vector ? *width != 2 && *width != 3 : *width != 1)
-      refuse(fmt::format("'{}' has {}", name, counted(*width, "column")));
+  for (const Property& property : Property::known) {
+    const std::size_t width = (layout.*property.columns).width;
+    if (width == 0 && !property.is_needed) continue;
+    const bool fits = property.is_vector ? width == 2 || width == 3 : width == 1;
+    if (!fits) refuse_properties(fmt::format("'{}' has {}", property.name, counted(width, "column")));
   }
-  layout.has_group = group_width > 0;
-  layout.has_spin = spin_width > 0;
-  layout.has_image = image_width > 0;
   layout_ = layout;
   properties_ = properties;
 }
@@ -181,32 +193,33 @@ void XyzReader::read_disk(XyzFrame& frame) const {
   const Layout& at = layout_;
   if (columns.size() != at.all)
     fail(fmt::format("{}, expected {}: {}", counted(columns.size(), "column"), at.all, properties_));
-  const auto flat = [&](std::size_t begin, std::size_t width) {
-    if (width == 3 && number(columns[begin + 2]) != 0.0) {
-      fail(fmt::format("z is {}, expected 0: disks move in a plane", columns[begin + 2]));
+  const auto planar = [&](const Columns& vector) {
+    if (vector.width == 3 && number(columns[vector.first + 2]) != 0.0) {
+      fail(fmt::format("z is {}, expected 0: disks move in a plane", columns[vector.first + 2]));
     }
   };
-  flat(at.position, at.position_width);
-  flat(at.velocity, at.velocity_width);
+  planar(at.position);
+  planar(at.velocity);
   Disk disk;
-  disk.id = whole_number<DiskId>(columns[at.id], "disk id");
-  disk.x = number(columns[at.position]);
-  disk.y = number(columns[at.position + 1]);
-  disk.vx = number(columns[at.velocity]);
-  disk.vy = number(columns[at.velocity + 1]);
-  const auto above_zero = [&](std::size_t column, const char* what) {
-    const double value = number(columns[column]);
-    if (!(value > 0.0)) fail(fmt::format("{} is {}, expected a number above 0", what, columns[column]));
+  disk.id = whole_number<DiskId>(columns[at.id.first], "disk id");
+  disk.x = number(columns[at.position.first]);
+  disk.y = number(columns[at.position.first + 1]);
+  disk.vx = number(columns[at.velocity.first]);
+  disk.vy = number(columns[at.velocity.first + 1]);
+  const auto above_zero = [&](const Columns& one, const char* what) {
+    const double value = number(columns[one.first]);
+    if (!(value > 0.0)) fail(fmt::format("{} is {}, expected a number above 0", what, columns[one.first]));
     return value;
   };
   disk.radius = above_zero(at.radius, "radius");
   disk.mass = above_zero(at.mass, "mass");
-  if (at.has_spin) disk.spin = number(columns[at.spin]);
-  push_back(frame.disks, disk, {.radius = true, .mass = true, .spin = at.has_spin});
-  if (at.has_group) frame.group.push_back(whole_number<DiskId>(columns[at.group], "group"));
-  if (!at.has_image) return;
-  frame.image_x.push_back(whole_number<std::int32_t>(columns[at.image], "number of rounds"));
-  frame.image_y.push_back(whole_number<std::int32_t>(columns[at.image + 1], "number of rounds"));
+  const bool has_spin = at.spin.width > 0;
+  if (has_spin) disk.spin = number(columns[at.spin.first]);
+  push_back(frame.disks, disk, {.radius = true, .mass = true, .spin = has_spin});
+  if (at.group.width > 0) frame.group.push_back(whole_number<DiskId>(columns[at.group.first], "group"));
+  if (at.image.width == 0) return;
+  frame.image_x.push_back(whole_number<std::int32_t>(columns[at.image.first], "number of rounds"));
+  frame.image_y.push_back(whole_number<std::int32_t>(columns[at.image.first + 1], "number of rounds"));
 }
 
 // Other programs may have written them in another order.
