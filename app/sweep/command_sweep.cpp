@@ -15,17 +15,16 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/messages.hpp"
-#include "app/cli/progress.hpp"
 #include "app/cli/start_ranks.hpp"
 #include "app/sweep/run_programs.hpp"
 #include "app/sweep/scene_of_run.hpp"
 #include "app/sweep/sweep_lock.hpp"
 #include "app/sweep/sweep_plan.hpp"
+#include "app/sweep/sweep_progress.hpp"
 #include "app/sweep/sweep_table.hpp"
 #include "core/base/check.hpp"
 #include "core/base/input_file.hpp"
 #include "core/base/input_message.hpp"
-#include "core/base/short_number.hpp"
 #include "core/scene/scene_text.hpp"
 #include "io/files/child_process.hpp"
 #include "io/files/output_file.hpp"
@@ -51,30 +50,6 @@ struct SweepCount {
   bool stopped = false;  // by a signal, before all had run
 };
 
-// How many runs have ended.
-class SweepProgress {
- public:
-  explicit SweepProgress(std::size_t all) : all_(all), start_(line_.seconds()) {}
-
-  void update(std::size_t ended, std::size_t failed) {
-    if (!line_.due()) return;
-    std::string text = fmt::format("{} of {} runs done", ended - failed, all_);
-    if (failed > 0) text += fmt::format(", {} failed", failed);
-    if (ended > 0) {
-      const double each = (line_.seconds() - start_) / static_cast<double>(ended);
-      text += fmt::format("  {} left", duration_text(each * static_cast<double>(all_ - ended)));
-    }
-    line_.show(text);
-  }
-
-  void clear() { line_.clear(); }
-
- private:
-  StatusLine line_{true};
-  std::size_t all_;
-  double start_;
-};
-
 class Sweep {
  public:
   explicit Sweep(const SweepOptions& options) : options_(options), folder_(folder_of(options)) {
@@ -91,24 +66,15 @@ class Sweep {
   // seeds.
   void open_folder() {
     const std::string scene_text = read_text_file(options_.scene, options_.scene);
-    const fs::path plan = folder_ / "sweep.txt";
     std::error_code error;
     if (fs::is_directory(folder_)) {
       lock_.emplace(folder_);
     } else if (fs::exists(folder_)) {
       fail_input(folder_.string(), "is a file", "expected a folder for the sweep (-o)");
     }
-    if (fs::exists(plan)) {
-      std::vector<SweepRun> runs = runs_;
-      const std::string before = read_text_file(plan.string(), plan.string());
-      Complaint against{take_names(before, scene_text, runs), "give it all of that and more"};
-      if (against.what.empty()) against = against_runs(runs);
-      if (against.what.empty()) {
-        runs_ = std::move(runs);
-        const std::string identity = sweep_identity(scene_text, runs_);
-        if (identity != before) replace_file(plan.string(), identity);
-        return;
-      }
+    if (fs::exists(plan_file())) {
+      const Complaint against = go_on(scene_text);
+      if (against.what.empty()) return;
       if (!options_.force) {
         fail_input(folder_.string(), fmt::format("holds another sweep: {}", against.what),
                    against.remedy + ", choose another folder with -o, or replace it with --force");
@@ -118,13 +84,7 @@ class Sweep {
     } else if (fs::exists(folder_) && !fs::is_empty(folder_, error)) {
       fail_input(folder_.string(), "holds other files", "expected a new folder for the sweep (-o)");
     }
-    fs::create_directories(folder_, error);
-    if (error) fail_input(folder_.string(), "cannot be made: " + error.message(), "expected a folder (-o)");
-    if (!lock_) lock_.emplace(folder_);
-    // Whole or not at all: a folder with runs and a plan cut short would be another sweep's.
-    replace_file(plan.string(), sweep_identity(scene_text, runs_));
-    fs::create_directories(folder_ / "runs", error);
-    if (error) fail_input((folder_ / "runs").string(), "cannot be made: " + error.message(), "expected a folder (-o)");
+    begin(scene_text);
   }
 
   bool finished(const SweepRun& run) const { return fs::exists(folder_of(run) / "summary.json"); }
@@ -175,28 +135,17 @@ class Sweep {
       ++count.failed;
     };
     Programs programs{rest.size(), static_cast<std::size_t>(jobs), {}, {}, {}};
-    constexpr const char* changed = "the scene, or a file that it reads, has changed since the sweep began";
     programs.start = [&](std::size_t k) -> std::unique_ptr<ChildProcess> {
       try {
-        if (!is_as_planned(*rest[k])) throw RunError(changed);
-        auto run = std::make_unique<ChildProcess>(command_of(*rest[k], threads), fs::current_path().string(),
-                                                  log_of(*rest[k]), ChildSignals::reach_it);
-        run->close_input();
-        return run;
+        return start(*rest[k], threads);
       } catch (const RunError& error) {
         fail(*rest[k], error.what());
         return nullptr;
       }
     };
     programs.ended = [&](std::size_t k, int status) {
-      constexpr int stopped_early = 4;
-      if (status == stopped_early || status == 128 + SIGTERM) return;  // the latter where it had not quite begun
-      if (status != 0) return fail(*rest[k], last_words(*rest[k], status));
-      fs::remove(log_of(*rest[k]));
-      if (against(*rest[k]).empty()) return;
-      std::error_code ignored;
-      fs::remove_all(folder_of(*rest[k]), ignored);  // it is none of this sweep
-      fail(*rest[k], changed);
+      const std::string why = close(*rest[k], status);
+      if (!why.empty()) fail(*rest[k], why);
     };
     programs.pulse = [&](std::size_t ended) { progress.update(ended, count.failed); };
     count.stopped = !run_programs(programs);
@@ -235,6 +184,7 @@ class Sweep {
     return options.folder ? fs::path(*options.folder) : fs::path("out") / (fs::path(options.scene).stem() += "_sweep");
   }
   fs::path folder_of(const SweepRun& run) const { return folder_ / "runs" / run.name; }
+  fs::path plan_file() const { return folder_ / "sweep.txt"; }
 
   void add_axis(const SweepAxis& axis) {
     if (std::any_of(axes_.begin(), axes_.end(), [&](const SweepAxis& other) { return other.key == axis.key; })) {
@@ -290,12 +240,64 @@ class Sweep {
     return {};
   }
 
+  // Goes on with the sweep in the folder, if it is this one or a part of it. Returns why it is not; empty if it is.
+  Complaint go_on(const std::string& scene_text) {
+    const std::string plan = plan_file().string();
+    std::vector<SweepRun> runs = runs_;
+    const std::string before = read_text_file(plan, plan);
+    Complaint against{take_names(before, scene_text, runs), "give it all of that and more"};
+    if (against.what.empty()) against = against_runs(runs);
+    if (!against.what.empty()) return against;
+    runs_ = std::move(runs);
+    const std::string identity = sweep_identity(scene_text, runs_);
+    if (identity != before) replace_file(plan, identity);
+    return {};
+  }
+
+  // Makes the folder what it is before any run.
+  void begin(const std::string& scene_text) {
+    const auto make = [](const fs::path& folder) {
+      std::error_code error;
+      fs::create_directories(folder, error);
+      if (error) fail_input(folder.string(), "cannot be made: " + error.message(), "expected a folder (-o)");
+    };
+    make(folder_);
+    if (!lock_) lock_.emplace(folder_);
+    // Whole or not at all: a folder with runs and a plan cut short would be another sweep's.
+    replace_file(plan_file().string(), sweep_identity(scene_text, runs_));
+    make(folder_ / "runs");
+  }
+
   std::string to_run_again(const SweepRun& run) const {
     return fmt::format("remove {} to run it again", folder_of(run).string());
   }
 
   std::string log_of(const SweepRun& run) const {
     return fs::absolute(folder_ / "runs" / (run.name + ".log")).string();
+  }
+
+  static constexpr const char* changed = "the scene, or a file that it reads, has changed since the sweep began";
+
+  // Throws RunError where the run cannot be started, or would not be that of the sweep.
+  std::unique_ptr<ChildProcess> start(const SweepRun& run, int threads) const {
+    if (!is_as_planned(run)) throw RunError(changed);
+    auto process = std::make_unique<ChildProcess>(command_of(run, threads), fs::current_path().string(), log_of(run),
+                                                  ChildSignals::reach_it);
+    process->close_input();
+    return process;
+  }
+
+  // Removes what is not to be kept of a run that has ended. Returns why the run failed; empty if it did not, and if it
+  // was stopped.
+  std::string close(const SweepRun& run, int status) const {
+    constexpr int stopped_early = 4;
+    if (status == stopped_early || status == 128 + SIGTERM) return "";  // the latter where it had not quite begun
+    if (status != 0) return last_words(run, status);
+    fs::remove(log_of(run));
+    if (against(run).empty()) return "";
+    std::error_code ignored;
+    fs::remove_all(folder_of(run), ignored);  // it is none of this sweep
+    return changed;
   }
 
   // The last message of a run that failed.
