@@ -4,7 +4,10 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <bit>
+#include <iterator>
 #include <new>
+#include <utility>
 
 #include "core/base/input_message.hpp"
 
@@ -82,45 +85,66 @@ std::vector<Changes> changes_of(const std::vector<ViewFrame>& frames) {
   return changes;
 }
 
-// The residuals of a frame whose two predecessors have the same disks.
-void find_plain_residuals(const std::uint32_t* now, const std::uint32_t* last, const std::uint32_t* before,
-                          std::size_t count, const ViewAxis& axis, unsigned order, std::uint32_t* residuals) {
-  const ViewAxis own = axis;
-  for (std::size_t i = 0; i < count; ++i) {
-    residuals[i] = folded((now[i] - Track{last[i], before[i]}.expected(order)) & own.mask(), own);
+using Residuals = std::vector<std::uint32_t>;
+
+// How an axis is coded in a block.
+struct AxisCode {
+  std::size_t number;  // 0 of x, 1 of y
+  ViewAxis axis;
+  unsigned order;  // of differences
+
+  std::uint32_t residual(std::uint32_t at, const Track& track) const {
+    return folded((at - track.expected(order)) & axis.mask(), axis);
+  }
+  std::uint32_t value(std::uint32_t residual, const Track& track) const {
+    return (track.expected(order) + unfolded(residual)) & axis.mask();
+  }
+};
+
+// The residuals of frame k, whose two predecessors have the same disks.
+void find_plain_residuals(const std::vector<ViewFrame>& frames, std::size_t k, const AxisCode& code,
+                          std::uint32_t* residuals) {
+  const AxisCode own = code;  // so that what is written cannot be part of it
+  const std::vector<std::uint32_t>& at = frames[k].at[own.number];
+  const std::uint32_t* const now = at.data();
+  const std::uint32_t* const last = frames[k - 1].at[own.number].data();
+  const std::uint32_t* const before = frames[k - 2].at[own.number].data();
+  const std::size_t count = at.size();
+  for (std::size_t i = 0; i < count; ++i) residuals[i] = own.residual(now[i], {last[i], before[i]});
+}
+
+// The tracks of the disks of frame k, which its predecessor has, too.
+void set_tracks(const std::vector<ViewFrame>& frames, std::size_t k, std::size_t axis, std::vector<Track>& tracks) {
+  const ViewFrame& frame = frames[k];
+  for (std::size_t i = 0; i < frame.place.size(); ++i) {
+    tracks[frame.place[i]] = {frame.at[axis][i], frames[k - 1].at[axis][i]};
   }
 }
 
-// The residuals of one axis over all frames, in the order of the block.
-void find_residuals(const std::vector<ViewFrame>& frames, const std::vector<Changes>& changes, std::size_t axis_number,
-                    const ViewAxis& axis, unsigned order, std::vector<Track>& tracks,
-                    std::vector<std::uint32_t>& residuals) {
+// The residuals of one axis over all frames, in the order of the block. tracks: scratch, one for each place; they are
+// not kept while the disks stay the same, but set anew when that ends.
+void find_residuals(const std::vector<ViewFrame>& frames, const std::vector<Changes>& changes, const AxisCode& code,
+                    std::vector<Track>& tracks, Residuals& residuals) {
   std::size_t next = 0;
-  bool stale = false;  // tracks are not kept while the disks stay the same
+  bool stale = false;
   for (std::size_t k = 0; k < frames.size(); ++k) {
-    const std::vector<std::uint32_t>& at = frames[k].at[axis_number];
+    const std::vector<std::uint32_t>& at = frames[k].at[code.number];
     if (k >= 2 && changes[k].none() && changes[k - 1].none()) {
-      find_plain_residuals(at.data(), frames[k - 1].at[axis_number].data(), frames[k - 2].at[axis_number].data(),
-                           at.size(), axis, order, residuals.data() + next);
+      find_plain_residuals(frames, k, code, residuals.data() + next);
       next += at.size();
       stale = true;
       continue;
     }
-    for (std::size_t i = 0; stale && i < frames[k - 1].place.size(); ++i) {
-      tracks[frames[k - 1].place[i]] = {frames[k - 1].at[axis_number][i], frames[k - 2].at[axis_number][i]};
-    }
-    stale = false;
+    if (std::exchange(stale, false)) set_tracks(frames, k - 1, code.number, tracks);
     for (const std::uint32_t p : changes[k].added) tracks[p] = {};
     for (std::size_t i = 0; i < at.size(); ++i) {
       Track& track = tracks[frames[k].place[i]];
-      residuals[next++] = folded((at[i] - track.expected(order)) & axis.mask(), axis);
+      residuals[next++] = code.residual(at[i], track);
       track = {at[i], track.last};
     }
     for (const std::uint32_t p : changes[k].added) tracks[p].before = tracks[p].last;
   }
 }
-
-using Residuals = std::vector<std::uint32_t>;
 
 void put_residuals(std::string& bytes, const std::array<Residuals, 2>& residuals, const ViewAxes& axes) {
   const std::size_t count = residuals[0].size();
@@ -137,7 +161,8 @@ void put_residuals(std::string& bytes, const std::array<Residuals, 2>& residuals
   }
 }
 
-// How many bits the residuals of two orders take, on a sample of the disks: the sum of their lengths.
+// The order of differences, 1 or 2, with which residuals in x take fewer bits: the sum of their lengths, of a sample of
+// the disks.
 unsigned better_order(const std::vector<ViewFrame>& frames, const std::vector<Changes>& changes, const ViewAxis& axis) {
   std::array<std::uint64_t, 2> bits{};
   for (std::size_t k = 2; k < frames.size(); ++k) {
@@ -146,9 +171,8 @@ unsigned better_order(const std::vector<ViewFrame>& frames, const std::vector<Ch
     const std::size_t stride = 1 + now.size() / 256;
     for (std::size_t i = 0; i < now.size(); i += stride) {
       const Track track{frames[k - 1].at[0][i], frames[k - 2].at[0][i]};
-      for (unsigned order = 1; order <= 2; ++order) {
-        const std::uint32_t r = folded((now[i] - track.expected(order)) & axis.mask(), axis);
-        for (std::uint32_t left = r; left != 0; left >>= 1U) ++bits[order - 1];
+      for (const unsigned order : {1U, 2U}) {
+        bits[order - 1] += static_cast<unsigned>(std::bit_width(AxisCode{0, axis, order}.residual(now[i], track)));
       }
     }
   }
@@ -255,16 +279,16 @@ std::array<Residuals, 2> read_residuals(Reading& reading, const ViewAxes& axes, 
   return residuals;
 }
 
-// Fills in one axis of all frames.
-void follow_residuals(const Residuals& residuals, const std::vector<Changes>& changes, std::size_t axis_number,
-                      const ViewAxis& axis, unsigned order, std::uint32_t places, std::vector<ViewFrame>& frames) {
+// Fills in one axis of all frames. places: of the table of all disks.
+void follow_residuals(const Residuals& residuals, const std::vector<Changes>& changes, const AxisCode& code,
+                      std::uint32_t places, std::vector<ViewFrame>& frames) {
   std::vector<Track> tracks(places);
   std::size_t next = 0;
   for (std::size_t k = 0; k < frames.size(); ++k) {
     for (const std::uint32_t p : changes[k].added) tracks[p] = {};
     for (const std::uint32_t p : frames[k].place) {
-      const std::uint32_t at = (tracks[p].expected(order) + unfolded(residuals[next++])) & axis.mask();
-      frames[k].at[axis_number].push_back(at);
+      const std::uint32_t at = code.value(residuals[next++], tracks[p]);
+      frames[k].at[code.number].push_back(at);
       tracks[p] = {at, tracks[p].last};
     }
     for (const std::uint32_t p : changes[k].added) tracks[p].before = tracks[p].last;
@@ -312,7 +336,7 @@ ViewBlock pack_view_block(const std::vector<ViewFrame>& frames, std::size_t firs
   std::array<Residuals, 2> residuals;
   for (std::size_t axis = 0; axis < 2; ++axis) {
     residuals[axis].resize(block.residuals);
-    find_residuals(frames, changes, axis, axes[axis], order, tracks, residuals[axis]);
+    find_residuals(frames, changes, {axis, axes[axis], order}, tracks, residuals[axis]);
   }
   put_residuals(bytes, residuals, axes);
   block.packed = deflated(bytes);
@@ -340,7 +364,7 @@ std::vector<ViewFrame> unpack_view_block(const ViewBlock& block, const ViewAxes&
   const auto residuals = read_residuals(reading, axes, block.residuals);
   if (!reading.good() || reading.left() != 0 || count != block.residuals) damaged("they are not as long as they say");
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    follow_residuals(residuals[axis], changes, axis, axes[axis], order, places, frames);
+    follow_residuals(residuals[axis], changes, {axis, axes[axis], order}, places, frames);
   }
   return frames;
 }
