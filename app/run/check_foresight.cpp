@@ -294,42 +294,59 @@ void add_smooth_drives(const Scene& scene, std::vector<std::string>& troubles) {
   }
 }
 
+void add_collapse(const CollapseForesight& collapse, std::vector<std::string>& troubles) {
+  if (!collapse.expected) return;
+  const std::string when = collapse.from ? fmt::format("about t = {:.2g}", *collapse.from) : "some time";
+  troubles.push_back(fmt::format(
+      "inelastic collapse is to be expected from {} on, infinitely many collisions in finite time: the run would "
+      "stop with status 3; take --method pairwise, or give physics.collapse = {{ model = \"tc\", contact_time = ... "
+      "}}",
+      when));
+}
+
+// What a dt longer than the safe step leads to.
+const char* outcome_of_long_step(const Scene& scene, const StepForesight& steps) {
+  if (scene.run.method == Method::exact) return "collisions of Brownian disks will be wrong";
+  const bool brownian = scene.physics.diffusion > 0.0;
+  const bool hopeless = !brownian && scene.run.dt > most_parts * steps.at_start;
+  return hopeless ? "the run will stop at once, with status 3" : "steps will be split";
+}
+
+void add_long_step(const Scene& scene, const StepForesight& steps, std::vector<std::string>& troubles) {
+  const double dt = scene.run.dt;
+  const double safe = std::min(steps.at_start, steps.later);
+  if (!uses_dt(scene) || !(dt > safe)) return;
+  const char* const when =
+      scene.run.method == Method::exact ? " of disks from sources" : " at the speeds that disks will have";
+  troubles.push_back(fmt::format("dt = {:g} is longer than the safe step{}: {}; take dt <= {:.2g}", dt,
+                                 dt <= steps.at_start ? when : "", outcome_of_long_step(scene, steps), safe));
+}
+
+void add_fall_in_pile(const Scene& scene, const StepForesight& steps, std::vector<std::string>& troubles) {
+  if (scene.run.method == Method::exact || !(scene.run.dt > steps.resting)) return;
+  troubles.push_back(
+      fmt::format("in a pile a disk falls by g dt^2 before it is held, more than {:g} % of the smallest radius: take "
+                  "dt <= {:.2g}",
+                  100.0 * largest_overlap, steps.resting));
+}
+
+void add_full_box(const Scene& scene, const Population& population, std::vector<std::string>& troubles) {
+  if (has_sinks(scene) || !(population.end > population.start && population.fill > source_fill)) return;
+  troubles.push_back(
+      fmt::format("the sources would fill the box to a packing fraction of {:.2g}, and find no room beyond about "
+                  "{:g}: give a limit or a sink",
+                  population.fill, source_fill));
+}
+
 }  // namespace
 
 std::vector<std::string> foreseen_troubles(const Scene& scene, const StepForesight& steps, const Population& population,
                                            const CollapseForesight& collapse) {
   std::vector<std::string> troubles;
-  if (collapse.expected) {
-    const std::string when = collapse.from ? fmt::format("about t = {:.2g}", *collapse.from) : "some time";
-    troubles.push_back(fmt::format(
-        "inelastic collapse is to be expected from {} on, infinitely many collisions in finite time: the run would "
-        "stop with status 3; take --method pairwise, or give physics.collapse = {{ model = \"tc\", contact_time = ... "
-        "}}",
-        when));
-  }
-  const double dt = scene.run.dt;
-  if (uses_dt(scene) && dt > std::min(steps.at_start, steps.later)) {
-    const bool late = dt <= steps.at_start, split = scene.run.method != Method::exact;
-    const char* const when = split ? " at the speeds that disks will have" : " of disks from sources";
-    const bool hopeless = split && !(scene.physics.diffusion > 0.0) && dt > most_parts * steps.at_start;
-    const char* const what = hopeless ? "the run will stop at once, with status 3"
-                             : split  ? "steps will be split"
-                                      : "collisions of Brownian disks will be wrong";
-    troubles.push_back(fmt::format("dt = {:g} is longer than the safe step{}: {}; take dt <= {:.2g}", dt,
-                                   late ? when : "", what, std::min(steps.at_start, steps.later)));
-  }
-  if (scene.run.method != Method::exact && dt > steps.resting) {
-    troubles.push_back(
-        fmt::format("in a pile a disk falls by g dt^2 before it is held, more than {:g} % of the smallest radius: take "
-                    "dt <= {:.2g}",
-                    100.0 * largest_overlap, steps.resting));
-  }
-  if (population.end > population.start && !has_sinks(scene) && population.fill > source_fill) {
-    troubles.push_back(
-        fmt::format("the sources would fill the box to a packing fraction of {:.2g}, and find no room beyond about "
-                    "{:g}: give a limit or a sink",
-                    population.fill, source_fill));
-  }
+  add_collapse(collapse, troubles);
+  add_long_step(scene, steps, troubles);
+  add_fall_in_pile(scene, steps, troubles);
+  add_full_box(scene, population, troubles);
   add_smooth_drives(scene, troubles);
   return troubles;
 }
