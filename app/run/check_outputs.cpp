@@ -85,24 +85,31 @@ double folded(double c, double low, double high, bool periodic) {
   return low + (part < length ? part : 2.0 * length - part);
 }
 
+// How far disk i goes in that time where nothing stops it; if it is Brownian, as far as disks diffuse, in a direction
+// of its own.
+Vec2 way_of(const Disks& disks, std::size_t i, const Scene& scene, double time) {
+  if (scene.physics.diffusion > 0.0) {
+    const double spread = std::sqrt(2.0 * scene.physics.diffusion * time);
+    return {spread * std::sin(7.0 * static_cast<double>(i)), spread * std::cos(5.0 * static_cast<double>(i))};
+  }
+  const Gravity& g = scene.physics.gravity;
+  const double fall = 0.5 * time * time;
+  return {disks.vx[i] * time - fall * g.left, disks.vy[i] * time - fall * g.down};
+}
+
 // The disks some time later, as if they did not collide: movies of disks at rest would be too cheap.
 Disks moved(const Disks& disks, const Scene& scene, double time) {
   Disks later = disks;
-  const double spread = std::sqrt(2.0 * scene.physics.diffusion * time);
+  const bool periodic_x = scene.box.periodic_x(), periodic_y = scene.box.periodic_y();
   for (std::size_t i = 0; i < later.size(); ++i) {
     const double r = later.radius_of(i);
-    const Gravity& g = scene.physics.gravity;
-    const double fall = 0.5 * time * time;
-    const double dx =
-        spread > 0.0 ? spread * std::sin(7.0 * static_cast<double>(i)) : later.vx[i] * time - fall * g.left;
-    const double dy =
-        spread > 0.0 ? spread * std::cos(5.0 * static_cast<double>(i)) : later.vy[i] * time - fall * g.down;
-    const bool x = scene.box.periodic_x(), y = scene.box.periodic_y();
-    later.x[i] = folded(later.x[i] + dx, x ? 0.0 : r, scene.box.width - (x ? 0.0 : r), x);
-    if (!later.spin.empty()) {  // that collisions will have brought, where a run starts without
-      later.spin[i] += std::hypot(later.vx[i], later.vy[i]) / r * std::sin(3.0 * static_cast<double>(i));
-    }
-    later.y[i] = folded(later.y[i] + dy, y ? 0.0 : r, scene.box.height - (y ? 0.0 : r), y);
+    const double margin_x = periodic_x ? 0.0 : r, margin_y = periodic_y ? 0.0 : r;
+    const Vec2 way = way_of(disks, i, scene, time);
+    later.x[i] = folded(later.x[i] + way.x, margin_x, scene.box.width - margin_x, periodic_x);
+    later.y[i] = folded(later.y[i] + way.y, margin_y, scene.box.height - margin_y, periodic_y);
+    if (later.spin.empty()) continue;
+    // That collisions will have brought, where a run starts without.
+    later.spin[i] += std::hypot(later.vx[i], later.vy[i]) / r * std::sin(3.0 * static_cast<double>(i));
   }
   return later;
 }
@@ -129,38 +136,57 @@ Disks typical_disks(const Scene& scene, const State& state, double count) {
   return disks;
 }
 
+// What is written to see what it costs.
+struct Rehearsal {
+  Scene scene;
+  const EngineChoice& choice;
+  const Engine& tried;  // that has made the first steps of the run
+  Disks shown;          // in a frame
+};
+
 struct Rehearsed {
   double wall = 0.0, cpu = 0.0;  // seconds
   double sample_seconds = 0.0;   // each
   Sizes sizes;
 };
 
-Rehearsed rehearse(const Scene& scene, const EngineChoice& choice, const Engine& tried, const Disks& disks,
-                   const fs::path& path, Count frames, bool sample) {
+// The bytes of each file in the folder, and of all pictures together.
+Sizes sizes_in(const fs::path& folder) {
+  Sizes sizes;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    const bool picture = entry.path().parent_path() != folder;
+    sizes[picture ? "frames" : entry.path().filename().string()] += static_cast<double>(entry.file_size());
+  }
+  sizes.erase("lock");
+  return sizes;
+}
+
+double seconds_of_sample(RunningAnalysis& analysis, const Engine& tried) {
+  const auto start = WallClock::now();
+  analysis.follow(tried, tried.state().time);
+  analysis.sample(WholeDisks(tried.state().disks, tried.state().time), tried.state());
+  return seconds_since(start);
+}
+
+// So many frames in a new folder, and a sample of the analysis if it is wanted.
+Rehearsed rehearse(const Rehearsal& what, const fs::path& path, Count frames, bool sample) {
+  const Scene& scene = what.scene;
   Rehearsed r;
   const double every = scene.output.every > 0.0 ? scene.output.every : scene.run.t_end;
   const OutputFolder folder(path, scene.file, true);
-  auto start = WallClock::now();
+  const auto start = WallClock::now();
   const double cpu_before = cpu_seconds();
-  RunOutputs outputs(scene, folder, make_block_runner(choice));
+  RunOutputs outputs(scene, folder, make_block_runner(what.choice));
   for (Count k = 0; k < frames; ++k) {
     const double time = static_cast<double>(k) * every;
-    outputs.frame(WholeDisks(moved(disks, scene, time), time), tried.state());
+    outputs.frame(WholeDisks(moved(what.shown, scene, time), time), what.tried.state());
   }
   outputs.finish(false);
   r.wall = seconds_since(start);
   r.cpu = cpu_seconds() - cpu_before;
-  for (const auto& entry : fs::recursive_directory_iterator(folder.unfinished())) {
-    if (!entry.is_regular_file()) continue;
-    const bool picture = entry.path().parent_path() != fs::path(folder.unfinished());
-    r.sizes[picture ? "frames" : entry.path().filename().string()] += static_cast<double>(entry.file_size());
-  }
-  r.sizes.erase("lock");
-  if (!sample || outputs.analysis() == nullptr) return r;
-  start = WallClock::now();
-  outputs.analysis()->follow(tried, tried.state().time);
-  outputs.analysis()->sample(WholeDisks(tried.state().disks, tried.state().time), tried.state());
-  r.sample_seconds = seconds_since(start);
+  r.sizes = sizes_in(folder.unfinished());
+  if (sample && outputs.analysis() != nullptr) r.sample_seconds = seconds_of_sample(*outputs.analysis(), what.tried);
   return r;
 }
 
@@ -232,21 +258,18 @@ void extrapolate(const Rehearsed& one, const Rehearsed& several, Count rehearsed
 
 void rehearse_files(const Scene& scene, const EngineChoice& choice, const Engine& tried, double disks,
                     const fs::path& workshop, OutputForesight& f) {
-  Scene rehearsal = scene;
-  rehearsal.output.checkpoint = 0.0;
-  rehearsal.analysis.start = 0.0;
   const bool sample = scene.analysis.any() && tried.state().disks.size() <= most_sampled;
   if (f.frames == 0 && !sample) return;
-  const Disks shown = typical_disks(scene, tried.state(), disks);
-  const double scale = std::max(1.0, disks / std::max(1.0, static_cast<double>(shown.size())));
-  const Rehearsed one =
-      rehearse(rehearsal, choice, tried, shown, workshop / "one", std::min<Count>(f.frames, 1), sample);
+  Rehearsal rehearsal{scene, choice, tried, typical_disks(scene, tried.state(), disks)};
+  rehearsal.scene.output.checkpoint = 0.0;
+  rehearsal.scene.analysis.start = 0.0;
+  const double scale = std::max(1.0, disks / std::max(1.0, static_cast<double>(rehearsal.shown.size())));
+  const Rehearsed one = rehearse(rehearsal, workshop / "one", std::min<Count>(f.frames, 1), sample);
   f.analysis_s = one.sample_seconds * static_cast<double>(f.samples);
   if (f.frames == 0) return;
   // A frame that takes long is enough to measure, except for what happens before the first frame.
   const Count several = std::min(f.frames, one.cpu < slow_frame ? rehearsed_frames : 2);
-  const Rehearsed more =
-      several > 1 ? rehearse(rehearsal, choice, tried, shown, workshop / "more", several, false) : one;
+  const Rehearsed more = several > 1 ? rehearse(rehearsal, workshop / "more", several, false) : one;
   extrapolate(one, more, several, scale, f);
   std::erase_if(f.files, [](const auto& file) { return file.first == "analysis.h5"; });
 }
