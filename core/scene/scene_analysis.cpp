@@ -20,10 +20,11 @@ struct DefaultDistances {
   double reach, bins_per_diameter;  // diameters, 1
 };
 // Where nothing is said: pairs up to five diameters in bins of a fiftieth, so that the first bin beyond contact of
-// equal disks begins at contact; speeds up to six thermal ones, beyond which no disk in 10^7 is.
+// equal disks begins at contact.
 constexpr DefaultDistances pair_defaults{"pair_correlation", 5.0, 50.0};
 // Order reaches further, and has no step at contact.
 constexpr DefaultDistances bond_defaults{"bond_correlation", 20.0, 10.0};
+// In thermal speeds; no disk in 10^7 is faster.
 constexpr double default_speed_max = 6.0;
 constexpr Count default_speed_bins = 60, default_density_bins = 50, default_wave_numbers = 100;
 // Samples of a run that says nothing of how often.
@@ -150,14 +151,7 @@ void settle_distances(const Scene& scene, DistancePlan& plan, const DefaultDista
   plan.wall_margin = plan.r_max + largest_radius;
 }
 
-}  // namespace
-
-AnalysisPlan read_analysis(const SceneOrigin& origin, const toml::table& table, const Scene& scene) {
-  const TableReader reader(origin, "analysis", table);
-  AnalysisPlan plan;
-  read_wanted(reader, plan);
-  plan.group = reader.text("select").value_or("");
-  if (reader.find("select") != nullptr) plan.ids = find_group(reader, "select", plan.group, scene);
+void read_sample_times(const TableReader& reader, const Scene& scene, AnalysisPlan& plan) {
   const double usual = scene.output.every > 0.0 ? scene.output.every : scene.run.t_end / default_samples;
   plan.every = reader.number("every").value_or(usual);
   plan.start = reader.number_or_initial("start");
@@ -165,6 +159,19 @@ AnalysisPlan read_analysis(const SceneOrigin& origin, const toml::table& table, 
     reader.fail("start", fmt::format("is {}, after the end of the run", plan.start),
                 fmt::format("expected at most run.t_end = {}", scene.run.t_end));
   }
+}
+
+Count read_wave_numbers(const TableReader& options) {
+  const Count wave_numbers = options.count("wave_numbers").value_or(0);
+  if (wave_numbers > most_bins || (wave_numbers == 0 && options.find("wave_numbers") != nullptr)) {
+    options.fail("wave_numbers", fmt::format("is {}", wave_numbers),
+                 fmt::format("expected a whole number from 1 to {}", most_bins));
+  }
+  return wave_numbers;
+}
+
+// The tables of all quantities that have options.
+void read_all_options(const TableReader& reader, const Scene& scene, AnalysisPlan& plan) {
   read_options(reader, plan, Quantity::pair_correlation, [&](const TableReader& options) {
     plan.pairs = read_distances(options);
     plan.pair_groups = read_pair_groups(options, plan, scene);
@@ -185,22 +192,34 @@ AnalysisPlan read_analysis(const SceneOrigin& origin, const toml::table& table, 
     plan.profile_bins = read_bins(options);
     plan.profile_every = read_rows(options, plan, scene);
   });
-  read_options(reader, plan, Quantity::structure_factor, [&](const TableReader& options) {
-    plan.wave_numbers = options.count("wave_numbers").value_or(0);
-    if (plan.wave_numbers > most_bins || (plan.wave_numbers == 0 && options.find("wave_numbers") != nullptr)) {
-      options.fail("wave_numbers", fmt::format("is {}", plan.wave_numbers),
-                   fmt::format("expected a whole number from 1 to {}", most_bins));
-    }
-  });
-  if (plan.wants(Quantity::structure_factor) && !scene.box.periodic_x() && !scene.box.periodic_y()) {
-    reader.fail("what", "structure_factor goes by waves along periodic sides, and no side is",
-                "expected a periodic box");
-  }
+  read_options(reader, plan, Quantity::structure_factor,
+               [&](const TableReader& options) { plan.wave_numbers = read_wave_numbers(options); });
+}
+
+// What was not given. Distances follow when the sizes of all disks are known (settle_analysis).
+void take_defaults(AnalysisPlan& plan) {
   if (plan.profile_bins == 0) plan.profile_bins = default_density_bins;
   if (plan.wave_numbers == 0) plan.wave_numbers = default_wave_numbers;
   if (plan.speed_max == 0.0) plan.speed_max = default_speed_max;
   if (plan.speed_bins == 0) plan.speed_bins = default_speed_bins;
   if (plan.density_bins == 0) plan.density_bins = default_density_bins;
+}
+
+}  // namespace
+
+AnalysisPlan read_analysis(const SceneOrigin& origin, const toml::table& table, const Scene& scene) {
+  const TableReader reader(origin, "analysis", table);
+  AnalysisPlan plan;
+  read_wanted(reader, plan);
+  plan.group = reader.text("select").value_or("");
+  if (reader.find("select") != nullptr) plan.ids = find_group(reader, "select", plan.group, scene);
+  read_sample_times(reader, scene, plan);
+  read_all_options(reader, scene, plan);
+  if (plan.wants(Quantity::structure_factor) && !scene.box.periodic_x() && !scene.box.periodic_y()) {
+    reader.fail("what", "structure_factor goes by waves along periodic sides, and no side is",
+                "expected a periodic box");
+  }
+  take_defaults(plan);
   return plan;
 }
 
