@@ -165,6 +165,43 @@ void check_writable(const fs::path& name, const fs::path& folder) {
   throw RunError(fmt::format("cannot {} {}: {}", what, path.string(), error.message()));
 }
 
+// May the run put this file or folder there? name: of the run's folder, as given. Throws InputError if it may not.
+void check_place_of_result(const fs::path& name, const char* result, const fs::path& input, bool force) {
+  const fs::path place = normal(name) / result;
+  std::error_code error;
+  if (fs::equivalent(place, input, error)) {
+    throw InputError(fmt::format("{}: the run's {} would replace the scene file itself; choose another folder with -o",
+                                 name.string(), result));
+  }
+  // No file takes the place of a folder: at the end of a run is too late to find that out. A link is replaced itself.
+  if (std::string_view(result) != "frames" && fs::is_directory(fs::symlink_status(place, error))) {
+    throw InputError(fmt::format("{}: is a folder, where the run's {} would go; choose another folder with -o",
+                                 (name / result).string(), result));
+  }
+  if (!force && fs::exists(place, error)) {
+    throw InputError(
+        fmt::format("{}: holds {} of an earlier run; choose another folder with -o, or replace it with "
+                    "--force",
+                    name.string(), result));
+  }
+}
+
+// Throws InputError where another run is writing there, or has left what it wrote and that is not to be replaced.
+void check_unfinished(const fs::path& name, bool force) {
+  const fs::path unfinished = unfinished_of(normal(name));
+  std::error_code error;
+  if (!fs::exists(unfinished, error)) return;
+  if (locked_by_another(unfinished)) fail_locked(name);
+  if (force) return;
+  const std::string remedy = fs::exists(unfinished / checkpoint_name, error)
+                                 ? fmt::format("go on with carom resume {}, ", shell_word(name.string()))
+                                 : "";
+  throw InputError(
+      fmt::format("{}: another run is writing there, or stopped before its end ({}); {}choose another "
+                  "folder with -o, or replace it with --force",
+                  name.string(), unfinished.string(), remedy));
+}
+
 }  // namespace
 
 bool holds_frames_only(const fs::path& frames) {
@@ -198,39 +235,12 @@ void check_output_folder(const fs::path& name, const fs::path& input, bool force
   }
   check_writable(name, folder);
   if (!fs::exists(folder, error)) return;
-  for (const char* const result : result_names) {
-    if (fs::equivalent(folder / result, input, error)) {
-      throw InputError(
-          fmt::format("{}: the run's {} would replace the scene file itself; choose another folder with -o",
-                      name.string(), result));
-    }
-    // No file takes the place of a folder: at the end of a run is too late to find that out. A link is replaced itself.
-    if (std::string_view(result) != "frames" && fs::is_directory(fs::symlink_status(folder / result, error))) {
-      throw InputError(fmt::format("{}: is a folder, where the run's {} would go; choose another folder with -o",
-                                   (name / result).string(), result));
-    }
-    if (!force && fs::exists(folder / result, error)) {
-      throw InputError(
-          fmt::format("{}: holds {} of an earlier run; choose another folder with -o, or replace it with "
-                      "--force",
-                      name.string(), result));
-    }
-  }
+  for (const char* const result : result_names) check_place_of_result(name, result, input, force);
   if (fs::exists(folder / "frames", error) && !holds_frames_only(folder / "frames")) {
     throw InputError(fmt::format("{}: holds a folder 'frames' with other files in it; choose another folder with -o",
                                  name.string()));
   }
-  const fs::path unfinished = unfinished_of(folder);
-  if (!fs::exists(unfinished, error)) return;
-  if (locked_by_another(unfinished)) fail_locked(name);
-  if (force) return;
-  const std::string remedy = fs::exists(unfinished / checkpoint_name, error)
-                                 ? fmt::format("go on with carom resume {}, ", shell_word(name.string()))
-                                 : "";
-  throw InputError(
-      fmt::format("{}: another run is writing there, or stopped before its end ({}); {}choose another "
-                  "folder with -o, or replace it with --force",
-                  name.string(), unfinished.string(), remedy));
+  check_unfinished(name, force);
 }
 
 fs::path free_output_folder(const fs::path& wanted, const fs::path& input) {
