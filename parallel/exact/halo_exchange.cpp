@@ -160,6 +160,7 @@ void HaloPart::add_ghost(const Disks& all, std::uint16_t owner, const Offer& off
   append_from(all.mass, slot, d.mass);
   append_from(all.spin, slot, d.spin);
   run_.append_last_disk({all.x[slot], all.y[slot]});
+  see_radius(all.radius_of(slot));
   const auto i = static_cast<std::uint32_t>(d.size() - 1);
   record(i).progress = DiskProgress();
   record(i).progress.set(DiskProgress::ghost);

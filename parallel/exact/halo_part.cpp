@@ -139,6 +139,12 @@ void HaloPart::give_columns(Disks& all) {
 void HaloPart::take_radii(const Disks& all) {
   std::vector<double>& radius = state_.disks.radius;
   for (std::size_t i = 0; i < radius.size(); ++i) radius[i] = all.radius[slots_[i]];
+  see_radius(largest_radius(state_.disks));
+}
+
+// A ghost that has come since may be larger than all disks for which the lists were built: they are built anew.
+void HaloPart::see_radius(double radius) {
+  if (radius > run_.lists().largest_listed()) run_.forget(Known::nothing);
 }
 
 // Two disks further apart than twice the largest radius that is allowed for leave each other's growth alone. Of the

@@ -112,6 +112,7 @@ class HaloPart {
   void give(const std::vector<T>& column, std::vector<T>& all) const;
   void find_own(const BoxCut& cut, std::size_t first, std::vector<std::uint32_t>& slots);
   void set_ends(const BoxCut& cut, State& all, const LargestRadius& radii);
+  void see_radius(double radius);
   bool goes_as_there(const Ghost& ghost, const HaloPart& owner) const;
   void replace_path(Ghost& ghost, const HaloPart& owner);
   double beyond_end(const PathSegment& path) const;

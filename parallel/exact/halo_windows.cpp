@@ -132,11 +132,10 @@ void HaloWindows::build_parts(const WindowPlan& plan, const BoxCut& cut) {
 SliceOutcome HaloWindows::run(const WindowPlan& plan, const SpeedSummary& speeds, const WindowState& window) {
   SliceOutcome outcome = SliceOutcome::ghosts_too_few;
   for (int tries = 0; tries < most_tries && outcome == SliceOutcome::ghosts_too_few; ++tries) {
+    if (!lists_due(plan)) exchange_disks();
     if (lists_due(plan)) {
       spacing_ = mean_spacing();
       build(plan);
-    } else {
-      exchange_disks();
     }
     if (parts_.size() < 2) break;
     begin(plan, speeds, window);
@@ -177,7 +176,10 @@ double HaloWindows::growth() const {
 bool HaloWindows::complete_lists() {
   exchange_disks();
   std::vector<unsigned char> has_all(parts_.size());
-  executor_.run(parts_.size(), [&](std::size_t r) { has_all[r] = parts_[r]->has_all_near_own(state_.disks) ? 1 : 0; });
+  executor_.run(parts_.size(), [&](std::size_t r) {
+    const HaloPart& part = *parts_[r];
+    has_all[r] = part.run().known() != Known::nothing && part.has_all_near_own(state_.disks) ? 1 : 0;
+  });
   return std::find(has_all.begin(), has_all.end(), 0) == has_all.end();
 }
 

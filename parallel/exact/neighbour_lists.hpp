@@ -83,6 +83,8 @@ class NeighbourLists {
   // leave too little of the skin. Two disks that do not list each other are further apart than their radii then and
   // twice this, while both stay within the relist distance. Length.
   double growth() const { return growth_; }
+  // No disk that they hold may be larger: no search would look for it. Length.
+  double largest_listed() const { return largest_radius_; }
   const RelistDistance& relist_distance(bool near_border) const { return near_border ? near_border_ : elsewhere_; }
   Vec2 listed_unit() const { return listed_box_.unit; }  // of a FixedPointPosition; length
   // Of disk i; inside the box, but for rounding.

@@ -197,6 +197,22 @@ TEST(LongHaloWindows, WithAProjectile) {
   }
 }
 
+// Ten times as large as the others, it comes to a part whose lists were built for small disks.
+TEST(HaloWindows, TakeAGiantThatComesFromAnotherPart) {
+  for (const int height : {9, 12, 14, 15, 16, 18, 20}) {
+    SCOPED_TRACE(height);
+    const std::string giant = fmt::format(
+        "[[disks]]\ncount = 1\npositions = [[90, {}]]\nvelocities = [[100, 0]]\nradius = 3\nmass = 1e6\n", height);
+    const std::string small = "velocities = { maxwell = 1 }\nradius = 0.3\nmass = 1";
+    const Scene scene = make_scene({300, 30, "wall", "", giant + random_disks(4000, small), 0.8, ""});
+    const auto one_queue = make_parallel_engine(scene, initial_state(scene), {1});
+    const auto in_parts = make_parallel_engine(scene, initial_state(scene), {2});
+    run_to_end(*one_queue, scene);
+    run_to_end(*in_parts, scene);
+    EXPECT_EQ(state_hash(in_parts->state().disks), state_hash(one_queue->state().disks));
+  }
+}
+
 std::vector<std::tuple<double, DiskId, DiskId>> in_order(const std::vector<DiskContact>& contacts) {
   std::vector<std::tuple<double, DiskId, DiskId>> all;
   for (const DiskContact& c : contacts) all.emplace_back(c.time, std::min(c.id1, c.id2), std::max(c.id1, c.id2));
