@@ -173,8 +173,8 @@ std::string cost_text(const Scene& scene, const Findings& f) {
   part("frames and movie", f.outputs.files_s);
   part("analysis", f.outputs.analysis_s);
   part("plots", f.outputs.plots_s);
-  // The trial sees the disks fall.
   if (has_sinks(scene) && f.population.end > f.population.start) text += "; less as sinks take disks away";
+  // The trial sees the disks fall.
   const bool piles_up = scene.run.method == Method::pairwise && settles(scene);
   return piles_up ? text + "; once disks lie in a pile, a step takes 5 to 50 times as long, the longer the taller it is"
                   : text;

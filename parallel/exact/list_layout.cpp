@@ -37,6 +37,10 @@ constexpr std::size_t disks_of_a_place = 4;
 // The most of the skin that is kept for radii that grow.
 constexpr double most_growth = 0.6;
 
+double crowding_of_cells(double crowded, std::size_t disks) {
+  return disks > disks_of_much_memory ? std::min(crowded, most_crowding_of_many) : crowded;
+}
+
 }  // namespace
 
 // crowded: how much denser than in the mean it is around the disks (crowding.hpp).
@@ -84,11 +88,12 @@ void NeighbourLists::sort(Disks& d, const ListLayout& layout, double crowded, co
     // Half of this many disks a cell, which has room for eight: lists extend over several cells, and each costs as much
     // to visit, empty or not. A few less in a dilute gas, whose disks lie less evenly, so that more cells overflow; a
     // few more where they are many, for memory's sake.
-    const bool are_many = std::max(d.size(), layout.disks_of_box) > disks_of_much_memory;
+    const std::size_t disks = std::max(d.size(), layout.disks_of_box);
+    const bool are_many = disks > disks_of_much_memory;
     const bool is_dilute = skin_ > 4.0 * largest;
     const std::size_t twice_a_cell = (is_dilute ? 6U : 8U) + (are_many ? 2U : 0U);
     for (std::size_t& c : count) c = c / twice_a_cell + 1;
-    make_grid(box_, largest, count, grid_, grid_margin, are_many ? std::min(crowded, most_crowding_of_many) : crowded);
+    make_grid(box_, largest, count, grid_, grid_margin, crowding_of_cells(crowded, disks));
     if (layout.low < layout.high) store_rows_between(box_, layout.low, layout.high, grid_);
   }
   if (is_sorted_by_place()) {
@@ -103,7 +108,8 @@ void NeighbourLists::sort(Disks& d, const ListLayout& layout, double crowded, co
 void NeighbourLists::sort_by_place(Disks& d, const ListLayout& layout, double crowded, const Executor& executor) {
   const std::size_t disks = std::max(layout.disks_of_box, d.size());
   CellGrid places;
-  make_grid(box_, smallest_radius(d), {disks / disks_of_a_place + 1}, places, grid_margin, crowded);
+  make_grid(box_, smallest_radius(d), {disks / disks_of_a_place + 1}, places, grid_margin,
+            crowding_of_cells(crowded, disks));
   if (layout.low < layout.high) store_rows_between(box_, layout.low, layout.high, places);
   sort_into_cells(d, places, executor, cells_);
 }
