@@ -6,14 +6,18 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <cstdint>
+#include <numeric>
 
 #include "core/disks/disks.hpp"
 #include "core/disks/domain.hpp"
 #include "core/disks/obstacle_cells.hpp"
+#include "core/disks/state_hash.hpp"
 #include "core/physics/obstacle_contact.hpp"
 #include "core/scene/scene_text.hpp"
 #include "core/start/initial_state.hpp"
 #include "parallel/start/growth_flights.hpp"
+#include "parallel/start/growth_step.hpp"
 #include "parallel/start/random_placement.hpp"
 #include "tests/support/disks_by_hand.hpp"
 #include "tests/support/draws.hpp"
@@ -184,6 +188,46 @@ TEST(Growth, StepTakesTheGapsToObstacles) {
   EXPECT_FALSE(tally.overlap);
   d.x[0] = 13.0;
   EXPECT_TRUE(grow_step(d, box, {9.0, 9.0, 1.5}).overlap);
+}
+
+void expect_same_step(const GrowthTally& tally, const Disks& d, const GrowthTally& plain, const Disks& other) {
+  EXPECT_EQ(state_hash(d), state_hash(other));
+  EXPECT_EQ(tally.lacking, plain.lacking);
+  EXPECT_EQ(tally.most_lack, plain.most_lack);
+  EXPECT_EQ(tally.area.value(), plain.area.value());
+  EXPECT_EQ(tally.lack.value(), plain.lack.value());
+  if (plain.lacking == 0) {
+    EXPECT_EQ(tally.overlap, plain.overlap);
+  }
+}
+
+// Of disks that lack something, and of such as have their radii, of which two may overlap.
+TEST(Growth, StepsByCellsAndByListsDoWhatThePlainOneDoes) {
+  test::Draws draws(6);
+  const Executor executor(2, 100);
+  int overlaps = 0;
+  for (int k = 0; k < 24; ++k) {
+    Domain box;
+    box.width = 30.0;
+    box.height = 20.0;
+    test::set_sides(box, k % 2 == 0 ? SideKind::periodic : SideKind::wall, SideKind::wall);
+    const Disks start = test::disks_of(test::random_disks(draws, box, 25, {0.2, 1.5}));
+    Disks plain = start;
+    if (k % 4 > 1) plain.x[7] = plain.x[3] + 0.5 * plain.radius[3], plain.y[7] = plain.y[3];
+    Disks by_cells = plain, by_lists = plain;
+    std::vector<double> target;
+    for (const double r : plain.radius) target.push_back(k % 3 == 0 || draws.in(0, 1) < 0.3 ? r : r * draws.in(1, 2));
+    const GrowthTally tally = grow_step(plain, box, target);
+    overlaps += tally.lacking == 0 && tally.overlap ? 1 : 0;
+    expect_same_step(grow_by_cells(executor, by_cells, box, target), by_cells, tally, plain);
+    std::vector<std::uint32_t> all(plain.size());
+    std::iota(all.begin(), all.end(), 0U);
+    const auto visit_all = [&](const auto& visit) {
+      for (std::size_t i = 0; i < all.size(); ++i) visit(i, all);
+    };
+    expect_same_step(grow_by_lists(executor, by_lists, box, target, visit_all), by_lists, tally, plain);
+  }
+  EXPECT_EQ(overlaps, 4);
 }
 
 // The plain step against all pairs: by its definition, each gap shared by what both ends lack.
