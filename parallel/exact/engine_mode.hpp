@@ -32,6 +32,8 @@ struct ListLayout {
   // How many disks there are in the whole box, where a rank or a part has but some of them; 0: it has all.
   std::size_t disks_of_box = 0;
   double low = 0.0, high = 0.0;  // then its disks lie about between these heights; length
+  // Then the largest radius in the whole box: lists of disks that are hardly smaller take up larger ones, too. Length.
+  double largest_of_box = 0.0;
   // By how much every radius may grow while lists are in use, which takes as much off the skin; length.
   double growth = 0.0;
 };

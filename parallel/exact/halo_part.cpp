@@ -58,6 +58,7 @@ void HaloPart::build(const WindowPlan& plan, const BoxCut& cut, State& all, cons
   const double low = cut.along_x ? 0.0 : cut.low(number_) - cut.halo;
   const double high = cut.along_x ? 0.0 : cut.high(number_) + cut.halo;
   ListLayout layout = layout_of_part(state_.disks.size(), slots.size(), low, high);
+  layout.largest_of_box = radii.now;
   layout.growth = radii.growth;
   run_.forget(Known::nothing);
   run_.build_lists(plan, layout, [&](const std::vector<std::uint32_t>& order, const std::vector<double>& /*scratch*/) {

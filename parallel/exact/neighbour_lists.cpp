@@ -16,6 +16,9 @@ namespace {
 // out among threads. The number of a block has 16 bits.
 constexpr std::size_t disks_per_block = 4096;
 constexpr std::size_t most_blocks = 65536;
+// So that a slightly larger disk that comes to a part does not make all lists anew, and a giant elsewhere no search
+// longer.
+constexpr double hardly_larger = 1.1;
 
 }  // namespace
 
@@ -33,6 +36,9 @@ void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout
   const std::size_t n = d.size();
   const bool gives_back = std::max(n, layout.disks_of_box) > disks_of_much_memory;
   largest_radius_ = largest_radius(d);
+  if (layout.largest_of_box < hardly_larger * largest_radius_) {
+    largest_radius_ = std::max(largest_radius_, layout.largest_of_box);
+  }
   growth_ = layout.growth;
   grid_.tiles = grid_.tiles_a_layer = 1;
   grid_.tile_keys = 0;

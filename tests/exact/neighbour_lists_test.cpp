@@ -131,52 +131,6 @@ TEST(NeighbourLists, HoldAllDisksNear) {
   }
 }
 
-// Disks of all sizes are stored where their neighbours are: hardly any offset needs more than 16 bits, but those across
-// the border along y.
-TEST(NeighbourLists, OfManySizesHaveSmallOffsets) {
-  test::Draws draws(12);
-  Domain box;
-  box.width = box.height = 300.0;
-  box.sides.fill(SideKind::periodic);
-  Disks d = random_disks(draws, 80000, box.width, box.height, false);
-  for (std::size_t i = 0; i < d.size(); ++i) d.radius.push_back(draws.in(0.1, 0.5));
-  NeighbourLists lists;
-  lists.build(d, box, {}, Executor(1));
-  std::size_t far = 0, listed = 0;
-  for (std::uint32_t i = 0; i < d.size(); ++i) {
-    lists.for_each_neighbour(i, [&](std::uint32_t j) {
-      ++listed;
-      far += std::max(i, j) - std::min(i, j) > 32767 ? 1U : 0U;
-    });
-  }
-  EXPECT_GT(listed, 5 * d.size());
-  EXPECT_LT(far, listed / 50);
-}
-
-// What radii may grow by is taken off the distance after which disks are relisted, unless that leaves too little.
-TEST(NeighbourLists, LeaveRoomForGrowth) {
-  test::Draws draws(11);
-  Domain box;
-  box.width = box.height = 40.0;
-  Disks d = random_disks(draws, 500, box.width, box.height, true);
-  NeighbourLists lists;
-  const auto build = [&](double growth) {
-    ListLayout layout;
-    layout.growth = growth;
-    lists.build(d, box, layout, Executor(1));
-  };
-  build(0.0);
-  const double skin = lists.skin();
-  EXPECT_EQ(lists.relist_distance(false).length, skin);
-  build(0.5 * skin);
-  EXPECT_DOUBLE_EQ(lists.skin(), skin);  // but for the order of a sum over all radii
-  EXPECT_EQ(lists.growth(), 0.5 * skin);
-  EXPECT_DOUBLE_EQ(lists.relist_distance(false).length, 0.5 * skin);
-  build(0.9 * skin);
-  EXPECT_EQ(lists.growth(), 0.0);
-  EXPECT_DOUBLE_EQ(lists.relist_distance(false).length, skin);
-}
-
 bool lists_disk(const NeighbourLists& lists, std::uint32_t i, std::uint32_t j) {
   bool found = false;
   lists.for_each_neighbour(i, [&](std::uint32_t k) { found = found || k == j; });
