@@ -4,14 +4,7 @@ import carom
 import numpy as np
 import pytest
 
-
-def gas(disks=200, **run):
-    return carom.Scene({
-        "title": "gas",
-        "box": {"packing_fraction": 0.3},
-        "disks": [{"count": disks, "positions": "random", "velocities": {"maxwell": 1.0}, "radius": 0.5, "mass": 1.0}],
-        "run": {"method": "pairwise", "dt": 0.01, "t_end": 5.0} | run,
-    })
+from small_gas import gas
 
 
 def test_callbacks_come_at_their_times_and_what_they_raise_ends_the_run_only():

@@ -15,20 +15,13 @@ import carom
 import numpy as np
 import pytest
 
+from small_gas import gas
+
 source = pathlib.Path(os.environ["CAROM_SOURCE_DIR"])
 program = os.environ["CAROM_PROGRAM"]
 
 # What a scene runs to here: a few steps of the large ones.
 short = {"gas_million.toml": 0.02, "dense_mixture.toml": 0.05, "production_c.toml": 0.5}
-
-
-def gas(disks=200, **run):
-    return carom.Scene({
-        "title": "gas",
-        "box": {"packing_fraction": 0.3},
-        "disks": [{"count": disks, "positions": "random", "velocities": {"maxwell": 1.0}, "radius": 0.5, "mass": 1.0}],
-        "run": {"method": "pairwise", "dt": 0.01, "t_end": 5.0} | run,
-    })
 
 
 @pytest.mark.parametrize("file", sorted(os.path.basename(f) for f in glob.glob(str(source / "scenes/*.toml"))))

@@ -1,6 +1,6 @@
 // What a rank finds near its borders, held against a look at all disks: those near a border or beyond it, how far they
-// have left the slab, whom the neighbours must see, and the pairs across a border. Disks of three classes of sizes have
-// moved since they were sorted into cells, most of them within the margin of these, some further: they are strays.
+// have left the slab, which of them the neighbours must see, and the pairs across a border. Disks of three size classes
+// have moved since they were sorted into cells, most of them within the margin of these, some further: they are strays.
 #include "parallel/slabs/border_search.hpp"
 
 #include <gtest/gtest.h>
