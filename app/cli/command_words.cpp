@@ -28,7 +28,7 @@ void check_command_name(const std::vector<const char*>& words) {
     throw InputError(
         fmt::format("there is no option {} before the command; {}", in_quotes(name), expected_one_of(general, name)));
   }
-  constexpr std::array<std::string_view, 4> of_the_launcher{"test", "bench", "python", "packages"};
+  constexpr std::array<std::string_view, 5> of_the_launcher{"test", "bench", "python", "paper", "packages"};
   if (std::find(of_the_launcher.begin(), of_the_launcher.end(), name) != of_the_launcher.end()) {
     throw InputError(
         fmt::format("{} is a command of the launcher ./carom in the sources, not of this program", in_quotes(name)));

@@ -29,6 +29,7 @@ constexpr const char* launcher_help = R"(The launcher ./carom in the sources has
   bench counts [--check]      count the instructions and cache misses of fixed scenes
   bench counts --features     count those of a gas with one feature each
   bench ranks                 time ranks on this machine beside a model of their parts
+  paper [--full [NAME...]]    make the methods paper from its kept results, or from new ones
   packages [SECTION]          only install what cmake/packages.txt lists
 )";
 

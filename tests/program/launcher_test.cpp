@@ -150,6 +150,18 @@ TEST_F(LongLauncher, PythonHasTheModuleOnItsPathAndItsPackagesOnlyThen) {
   EXPECT_THAT(o.out, EndsWith("/root/build/release/python\n"));
 }
 
+TEST_F(LongLauncher, ThePaperIsBuiltForOnlyWhereItsResultsAreMadeAnew) {
+  fs::create_directories(at("root/docs/paper"));
+  write("root/docs/paper/make_paper.py", "import sys\nprint(sys.argv[1:])\n");
+  write("root/cmake/packages.txt", "[build]\ncompiler\n[paper]\nlatex\n");
+  EXPECT_THAT(launch("root/carom paper").err, HasSubstr("could not install: latex"));
+  tool("dpkg-query", "echo compiler installed; echo latex installed");
+  EXPECT_EQ(launch("root/carom paper --quick").out, "['--quick']\n");
+  EXPECT_FALSE(fs::exists(at("root/built")));
+  EXPECT_EQ(launch("root/carom paper --full counts").out, "['--full', 'counts']\n");
+  EXPECT_TRUE(fs::exists(at("root/built")));
+}
+
 TEST_F(Launcher, ItsOwnCommandsHaveHelp) {
   for (const char* const command : {"bench", "packages"}) {
     const Outcome o = launch(std::string("root/carom ") + command + " --help");
@@ -158,7 +170,7 @@ TEST_F(Launcher, ItsOwnCommandsHaveHelp) {
     EXPECT_FALSE(fs::exists(at("root/built"))) << "nothing is built for that";
   }
   const std::string help = carom("--help").out;
-  for (const char* const command : {"./carom", "test", "bench", "python", "packages"})
+  for (const char* const command : {"./carom", "test", "bench", "python", "paper", "packages"})
     EXPECT_THAT(help, HasSubstr(command));
   const Outcome o = carom("test");
   EXPECT_EQ(o.status, 2);

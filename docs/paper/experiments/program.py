@@ -1,0 +1,50 @@
+"""Runs of the programs in build/release, which `./carom paper --full` has built."""
+
+import json
+import os
+import subprocess
+import tempfile
+from contextlib import contextmanager
+from pathlib import Path
+
+ROOT = Path(__file__).parents[3]
+RELEASE = ROOT / "build" / "release"
+
+
+@contextmanager
+def scratch():
+    """A folder that is gone afterwards."""
+    with tempfile.TemporaryDirectory(prefix="carom_paper_") as folder:
+        yield Path(folder)
+
+
+def run(program, *arguments, environment={}, statuses=(0,)) -> str:
+    """What it printed on standard output. Raises RuntimeError with its words on another exit status."""
+    done = subprocess.run(
+        [str(program), *map(str, arguments)], capture_output=True, text=True, env=os.environ | environment
+    )
+    if done.returncode not in statuses:
+        raise RuntimeError(f"{program} {' '.join(map(str, arguments))}: exit status {done.returncode}: {done.stderr}")
+    return done.stdout
+
+
+def summary(scene, *arguments, environment={}, statuses=(0,)) -> dict:
+    """The summary of `carom run` of a scene: a file, or the text of one."""
+    with scratch() as folder:
+        if not isinstance(scene, Path):
+            (folder / "scene.toml").write_text(scene)
+            scene = folder / "scene.toml"
+        return json.loads(
+            run(
+                RELEASE / "carom",
+                "run",
+                scene,
+                "-o",
+                folder / "out",
+                "--json",
+                "--quiet",
+                *arguments,
+                environment=environment,
+                statuses=statuses,
+            )
+        )

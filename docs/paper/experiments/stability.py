@@ -1,0 +1,90 @@
+"""The stability suite: verdicts of all cases and methods, and where a line of disks collapses."""
+
+import csv
+import math
+
+import gnuplot
+from experiments.program import RELEASE, run as run_program, scratch
+
+METHODS = ["rollback", "pairwise", "exact"]
+VERDICTS = ["right", "right but slow", "wrong and says so", "wrong in silence"]
+
+
+def run() -> list:
+    suite = RELEASE / "tests" / "stability" / "carom_stability"
+    with scratch() as folder:
+        run_program(suite, "--table", folder)
+        run_program(suite, "--maps", folder)
+        table = list(csv.DictReader((folder / "stability.csv").open()))
+        collapse = list(csv.DictReader((folder / "stability_collapse.csv").open()))
+    verdicts = {}  # several figures of a case have the same
+    for row in table:
+        key = (row["case"], row["method"])
+        verdicts.setdefault(
+            key,
+            {
+                "kind": "case",
+                "case": row["case"],
+                "method": row["method"],
+                "verdict": row["verdict"],
+                "state_hash": row["hash"],
+            },
+        )
+    return [
+        *verdicts.values(),
+        *(
+            {
+                "kind": "line",
+                "disks": int(c["disks"]),
+                "restitution": float(c["restitution"]),
+                "runs": int(c["runs"]),
+                "collapsed": int(c["collapsed"]),
+            }
+            for c in collapse
+        ),
+    ]
+
+
+def numbers(rows: list) -> dict:
+    cases = [row for row in rows if row["kind"] == "case"]
+    made = {"cases": str(len({row["case"] for row in cases})), "runs": str(len(cases))}
+    table = ""
+    for method in METHODS:
+        counts = [sum(row["method"] == method and row["verdict"] == verdict for row in cases) for verdict in VERDICTS]
+        table += f"\\texttt{{{method}}} & " + " & ".join(map(str, counts)) + " \\\\ "
+    made["table"] = table
+    made["silent"] = str(sum(row["verdict"] == VERDICTS[-1] for row in cases))
+    return made
+
+
+def boundary(restitution: float) -> float:
+    """Disks on a line collapse above this number (McNamara and Young 1996)."""
+    return math.log(4.0 / (1.0 - restitution)) / (1.0 - restitution)
+
+
+def draw(rows: list, folder) -> None:
+    lines = [row for row in rows if row["kind"] == "line" and row["restitution"] > 0.0]
+    curve = [(boundary(1.0 - 10.0**-k), 10.0**-k) for k in (j / 20 for j in range(1, 48))]
+    points = gnuplot.block("all", [(r["disks"], 1.0 - r["restitution"], r["collapsed"] / r["runs"]) for r in lines])
+    gnuplot.draw(
+        folder,
+        "collapse",
+        points
+        + gnuplot.block("theory", curve)
+        + r"""
+set logscale xy
+set format y '$10^{%T}$'
+set xlabel 'disks on a ring'
+set ylabel '$1 - e$'
+set xrange [2.5:1300]
+set yrange [0.004:1.1]
+set cbrange [0:1]
+set palette defined (0 '#dbe6f3', 1 '#8b1a1a')
+set cblabel 'share of runs that collapse'
+set cbtics 0.5
+unset grid
+plot $all with points palette pointtype 5 pointsize 0.75 notitle, \
+     $theory with lines linetype -1 linewidth 1.5 notitle
+""",
+        width=9.5,
+    )
