@@ -25,14 +25,11 @@ double kinetic_energy_of(const DisksInPieces& disks) {
   return sum.value();
 }
 
-// The row of the profile that a sample at time t belongs to: at the edge of two, to the later one; the last moment, to
-// the last one.
+// The row of the profile that a sample at time t belongs to: at the edge of two, to the later one. The last moment may
+// begin a row, which a resumed run goes on with where it has a later end.
 template <class Profile>
 Profile& row_at(std::vector<Profile>& rows, const Scene& scene, double every, double t, const Profile& empty) {
-  constexpr double edge = 1e-9;  // sample times are rounded
-  const double start = scene.analysis.start;
-  const double all = std::max(1.0, std::ceil((scene.run.t_end - start) / every - edge));
-  const double row = std::min(std::floor((t - start) / every + edge), all - 1.0);
+  const double row = std::floor((t - scene.analysis.start) / every + row_edge);
   const auto k = static_cast<std::size_t>(std::max(0.0, row));
   if (rows.size() <= k) rows.resize(k + 1, empty);
   return rows[k];

@@ -34,6 +34,9 @@ struct SampleSeries {
   std::vector<double> bond_autocorrelation;       // g6(t) (bond_memory.hpp)
 };
 
+// Of a row of profiles: as near to its end, by its length, a sample belongs to the next one, as times are rounded.
+constexpr double row_edge = 1e-9;
+
 struct AnalysisRecord {
   double counted_until = 0.0;  // time of the state at the last sample, and what it had counted
   Counters before;
@@ -42,7 +45,8 @@ struct AnalysisRecord {
   std::vector<PairRecord> partial;  // of the groups (k, l), k <= l, in order of k, then l: k k, and k l with l k
   SpeedHistogram speeds;
   DensityProfile density;
-  std::vector<DensityProfile> density_rows;  // of the times that a scene divides the run into
+  // Of the times that a scene divides the run into; the last moment may have one of its own (see density_rows_of_run).
+  std::vector<DensityProfile> density_rows;
   DisplacementTally displacement;
   MotionProfile motion;
   std::vector<MotionProfile> motion_rows;  // likewise

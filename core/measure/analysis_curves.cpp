@@ -1,5 +1,7 @@
 #include "core/measure/analysis_curves.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -77,6 +79,29 @@ BinnedCurve packing_curve(const DensityProfile& density, const Scene& scene) {
 
 BinnedCurve number_density_curve(const DensityProfile& density, const Scene& scene) {
   return curve_of(length_of_profile(scene), column_of(density.centres).cast<double>() / slab_area(density, scene));
+}
+
+namespace {
+
+template <class Profile>
+std::vector<Profile> rows_of_run(std::vector<Profile> rows, const Scene& scene, double every) {
+  const double parts = std::ceil((scene.run.t_end - scene.analysis.start) / every - row_edge);
+  const double all = std::max(1.0, parts);
+  while (static_cast<double>(rows.size()) > all) {
+    join(rows[rows.size() - 2], rows.back());
+    rows.pop_back();
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::vector<DensityProfile> density_rows_of_run(const AnalysisRecord& record, const Scene& scene) {
+  return rows_of_run(record.density_rows, scene, scene.analysis.density_every);
+}
+
+std::vector<MotionProfile> motion_rows_of_run(const AnalysisRecord& record, const Scene& scene) {
+  return rows_of_run(record.motion_rows, scene, scene.analysis.profile_every);
 }
 
 std::vector<double> row_times(std::size_t rows, double every, const Scene& scene) {

@@ -43,6 +43,10 @@ struct ProfileCurves {
 };
 ProfileCurves profile_curves(const MotionProfile& profile, const Scene& scene);
 
+// The rows of a run to t_end: there is none beyond it, as the last moment belongs to the last row.
+std::vector<DensityProfile> density_rows_of_run(const AnalysisRecord& record, const Scene& scene);
+std::vector<MotionProfile> motion_rows_of_run(const AnalysisRecord& record, const Scene& scene);
+
 // Times at which the first `rows` rows of a profile begin that has one for each `every`.
 std::vector<double> row_times(std::size_t rows, double every, const Scene& scene);
 

@@ -69,4 +69,12 @@ void add_density(DensityProfile& profile, const DisksInPieces& disks, const Doma
   ++profile.samples;
 }
 
+void join(DensityProfile& profile, const DensityProfile& other) {
+  for (std::size_t k = 0; k < profile.centres.size(); ++k) {
+    profile.centres[k] += other.centres[k];
+    profile.covered[k] += other.covered[k];
+  }
+  profile.samples += other.samples;
+}
+
 }  // namespace carom

@@ -24,6 +24,9 @@ inline void add_density(DensityProfile& profile, const Disks& disks, const Domai
   add_density(profile, WholeDisks(disks, 0.0), box, along_x);
 }
 
+// Adds the samples of another profile with as many slabs.
+void join(DensityProfile& profile, const DensityProfile& other);
+
 // Part of a disk of radius 1 that lies below the line y = h: 0 for h <= -1, 1 for h >= 1.
 double share_below(double h);
 

@@ -64,6 +64,23 @@ void add_motion(MotionProfile& profile, const DisksInPieces& disks, const Domain
   ++profile.samples;
 }
 
+void join(MotionProfile& profile, const MotionProfile& other) {
+  for (std::size_t k = 0; k < profile.disks.size(); ++k) {
+    const double mass = profile.mass[k], more = other.mass[k];
+    if (mass > 0.0 && more > 0.0) {
+      const double dx = other.px[k] / more - profile.px[k] / mass;
+      const double dy = other.py[k] / more - profile.py[k] / mass;
+      profile.twice_thermal[k] += mass * (more / (mass + more)) * (dx * dx + dy * dy);
+    }
+    profile.twice_thermal[k] += other.twice_thermal[k];
+    profile.disks[k] += other.disks[k];
+    profile.mass[k] += more;
+    profile.px[k] += other.px[k];
+    profile.py[k] += other.py[k];
+  }
+  profile.samples += other.samples;
+}
+
 SlabMotion motion_of_slab(const MotionProfile& p, std::size_t k) {
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   if (p.disks[k] == 0) return {{nothing, nothing}, nothing};

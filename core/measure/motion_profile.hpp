@@ -26,6 +26,9 @@ inline void add_motion(MotionProfile& profile, const Disks& disks, const Domain&
   add_motion(profile, WholeDisks(disks, 0.0), box, along_x);
 }
 
+// Adds the samples of another profile with as many slabs.
+void join(MotionProfile& profile, const MotionProfile& other);
+
 // Of slab k: the mean velocity V of all its disks and samples, and the temperature, sum of m (v - V)^2 / 2 a disk. NaN
 // where no disk was.
 struct SlabMotion {

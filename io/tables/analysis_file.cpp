@@ -160,11 +160,12 @@ void append_to(std::vector<double>& all, const std::vector<double>& row) {
 
 // The profile of each part of the run.
 void put_profile_rows(Hdf5Output& output, const AnalysisRecord& record, const Scene& scene) {
-  const std::size_t rows = record.motion_rows.size();
   if (!(scene.analysis.profile_every > 0.0)) return;
+  const std::vector<MotionProfile> of_run = motion_rows_of_run(record, scene);
+  const std::size_t rows = of_run.size();
   ProfileCurves all;
   std::vector<Count> disks, samples;
-  for (const MotionProfile& row : record.motion_rows) {
+  for (const MotionProfile& row : of_run) {
     const ProfileCurves curves = profile_curves(row, scene);
     append_to(all.vx, curves.vx);
     append_to(all.vy, curves.vy);
@@ -183,11 +184,12 @@ void put_profile_rows(Hdf5Output& output, const AnalysisRecord& record, const Sc
 }
 
 void put_density_rows(Hdf5Output& output, const AnalysisRecord& record, const Scene& scene) {
-  const std::size_t rows = record.density_rows.size();
   if (!(scene.analysis.density_every > 0.0)) return;
+  const std::vector<DensityProfile> of_run = density_rows_of_run(record, scene);
+  const std::size_t rows = of_run.size();
   std::vector<double> packing, number;
   std::vector<Count> samples;
-  for (const DensityProfile& row : record.density_rows) {
+  for (const DensityProfile& row : of_run) {
     append_to(packing, packing_curve(row, scene).value);
     append_to(number, number_density_curve(row, scene).value);
     samples.push_back(row.samples);

@@ -96,9 +96,69 @@ TEST(Profiles, TheLastMomentBelongsToTheLastRow) {
   for (int k = 1; k <= 5; ++k) {
     take_sample(record, scene, test::disks_of({{4.0, 1.0, 0.0, 0.0, 0.5, 1.0}}), k, {}, run_in_order);
   }
-  ASSERT_EQ(record.density_rows.size(), 2U);
-  EXPECT_EQ(record.density_rows[0].samples, 2U);
-  EXPECT_EQ(record.density_rows[1].samples, 3U) << "at 3, 4 and 5";
+  const std::vector<DensityProfile> rows = density_rows_of_run(record, scene);
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].samples, 2U);
+  EXPECT_EQ(rows[1].samples, 3U) << "at 3, 4 and 5";
+}
+
+// A run that goes on to a later end has the rows of one that had this end from the start: what was its last moment, at
+// an edge, belongs to the row that begins there.
+TEST(Profiles, ALaterEndHasTheRowsOfAWholeRun) {
+  Scene scene;
+  scene.box = {8.0, 8.0};
+  AnalysisPlan& plan = scene.analysis;
+  plan.wanted[static_cast<std::size_t>(Quantity::density)] = plan.wanted[static_cast<std::size_t>(Quantity::profile)] =
+      true;
+  plan.density_bins = plan.profile_bins = 4;
+  plan.density_every = plan.profile_every = 2.0;
+  const auto sample = [&](AnalysisRecord& record, double t) {
+    take_sample(record, scene, test::disks_of({{4.0, 1.0 + t, t * t, 1.0, 0.5, 1.0 + t}}), t, {}, run_in_order);
+  };
+  const auto samples_of = [](const auto& rows) {
+    std::vector<Count> samples;
+    for (const auto& row : rows) samples.push_back(row.samples);
+    return samples;
+  };
+  scene.run.t_end = 4.0;
+  AnalysisRecord record = empty_record(scene);
+  for (int t = 0; t <= 4; ++t) sample(record, t);
+  EXPECT_EQ(samples_of(density_rows_of_run(record, scene)), (std::vector<Count>{2, 3}));
+  EXPECT_EQ(samples_of(motion_rows_of_run(record, scene)), (std::vector<Count>{2, 3}));
+  scene.run.t_end = 6.0;
+  for (int t = 5; t <= 6; ++t) sample(record, t);
+  const std::vector<DensityProfile> density = density_rows_of_run(record, scene);
+  const std::vector<MotionProfile> motion = motion_rows_of_run(record, scene);
+  EXPECT_EQ(samples_of(density), (std::vector<Count>{2, 2, 3}));
+  EXPECT_EQ(samples_of(motion), (std::vector<Count>{2, 2, 3}));
+  EXPECT_EQ(density[2].centres, (std::vector<Count>{0, 0, 1, 2})) << "at y = 5, 6 and 7";
+}
+
+// Whatever the parts, joined they are the profile of all samples, the temperature from the mean of all included.
+TEST(Profiles, JoinedPartsAreTheWhole) {
+  test::Draws draws(7);
+  const Domain box{10.0, 10.0};
+  MotionProfile whole = empty_profile(3), first = empty_profile(3), rest = empty_profile(3);
+  DensityProfile filled = empty_density(3), filled_first = empty_density(3), filled_rest = empty_density(3);
+  for (int k = 0; k < 5; ++k) {
+    Disks disks = test::disks_of(test::random_disks(draws, box, 8, {0.1, 0.5}));
+    for (std::size_t i = 0; i < disks.size(); ++i) disks.vx[i] += 3.0 * k;
+    for (MotionProfile* part : {&whole, k < 2 ? &first : &rest}) add_motion(*part, disks, box, false);
+    for (DensityProfile* part : {&filled, k < 2 ? &filled_first : &filled_rest}) add_density(*part, disks, box, false);
+  }
+  join(first, rest);
+  join(filled_first, filled_rest);
+  EXPECT_EQ(first.disks, whole.disks);
+  EXPECT_EQ(first.samples, 5U);
+  EXPECT_EQ(filled_first.centres, filled.centres);
+  EXPECT_EQ(filled_first.samples, 5U);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const SlabMotion joined = motion_of_slab(first, k), all = motion_of_slab(whole, k);
+    EXPECT_NEAR(joined.velocity.x, all.velocity.x, 1e-12);
+    EXPECT_NEAR(joined.velocity.y, all.velocity.y, 1e-12);
+    EXPECT_NEAR(joined.temperature, all.temperature, 1e-12 * all.temperature);
+    EXPECT_NEAR(filled_first.covered[k], filled.covered[k], 1e-12);
+  }
 }
 
 // The same sums in whatever order disks are stored.
