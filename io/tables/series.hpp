@@ -37,15 +37,17 @@ inline constexpr std::array<SeriesColumn, 18> series_columns{{
     {"collisions", true, "", "of two disks, since the start"},
     {"wall_collisions", true, "", "of a disk and a wall, since the start"},
     {"pressure", false, "energy / area",
-     "mean since the row before, from kinetic energy (relative to a shear flow) and collisions, over the area of the "
-     "whole box, fixed disks and all; 0 in the first; nan likewise. A row in the same window of exact repeats it"},
+     "from the kinetic energy of this row (relative to a shear flow) and all collisions since the row before, over the "
+     "area of the whole box, fixed disks and all; 0 in the first; nan likewise. A row in the same window of exact "
+     "repeats it"},
     {"collision_rate", false, "1 / time",
-     "collisions a disk takes part in per unit time, mean likewise; of Brownian disks it grows as 1 / sqrt(dt)"},
+     "collisions a disk takes part in per unit time, mean since the row before; of Brownian disks it grows as 1 / "
+     "sqrt(dt)"},
     {"max_overlap", false, "", "largest overlap of two disks in this frame, over the sum of their radii; 0 if none"},
     {"removed", true, "", "disks that sinks have taken, since the start"},
     {"emitted", true, "", "disks that came from sources, since the start"},
     {"waiting", true, "", "disks that are due from sources and find no room"},
-    {"force_left", false, "force", "outwards on the left wall, mean as that of the pressure; nan likewise"},
+    {"force_left", false, "force", "outwards on the left wall, mean since the row before; nan likewise"},
     {"force_right", false, "force", "likewise on the right wall"},
     {"force_bottom", false, "force", "likewise on the floor"},
     {"force_top", false, "force", "likewise on the ceiling"},
