@@ -40,6 +40,8 @@ def test_the_virial_series_is_continued_to_the_published_values():
     assert state.published(0.1) == pytest.approx(1.236144, abs=2e-6)
     assert state.published(0.3) == pytest.approx(2.06326, abs=5e-5)
     assert state.published(0.5) == pytest.approx(4.106, abs=2e-3)
+    assert state.uncertainty(0.3) < 1e-5 and 5e-5 < state.uncertainty(0.5) < 1e-3, "approximants of other degrees agree"
+    assert 4096 * state.of_finite_box(0.3) == pytest.approx(0.7741, abs=1e-3), "64 disks gave 0.774 +- 0.015"
     assert state.collision_rate(state.published(0.5)) == pytest.approx(7.007, rel=1e-3)
 
 

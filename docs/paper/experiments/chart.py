@@ -99,19 +99,13 @@ def numbers(rows: list) -> dict:
 
 def draw(rows: list, folder) -> None:
     for scene, title in DRAWN.items():
+        paths = [row for row in rows if row["kind"] == "point" and row["scene"] == scene and row["measure"] == "path"]
         blocks, plots = "", []
-        for k, method in enumerate(METHODS):
-            points = sorted(
-                (row["error"], row["standard_error"], 1e6 * row["cost"])
-                for row in rows
-                if row["kind"] == "point"
-                and row["scene"] == scene
-                and row["measure"] == "path"
-                and row["method"] == method
-                and (row["seen"] or method == "exact")
-            )
+        for k, method in enumerate(METHODS[:2]):
+            points = sorted((row["error"], 1e6 * row["cost"]) for row in paths if row["method"] == method and row["seen"])
             blocks += gnuplot.block(method, points)
-            plots.append(f"${method} using 1:3 with linespoints linetype {k + 1} title '{method}'")
+            plots.append(f"${method} with linespoints linetype {k + 1} title '{method}'")
+        exact = 1e6 * next(row["cost"] for row in paths if row["method"] == "exact")
         gnuplot.draw(
             folder,
             f"chart_{scene}",
@@ -122,9 +116,8 @@ set format x '$10^{{%T}}$'
 set xlabel 'error of paths'
 set ylabel '$\mu$s per disk and mean free time'
 set title '{title}'
-set xrange [1e-15:1]
-set xtics 1e3
-set key top left
-plot {", ".join(plots)}
+set xrange [1e-5:1]
+set key top right
+plot {", ".join(plots)}, {exact:.6g} with lines linetype 3 linewidth 2 title 'exact'
 """,
         )

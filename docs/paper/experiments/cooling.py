@@ -113,6 +113,6 @@ set xrange [0.08:6]
 set yrange [0.025:1.05]
 set key bottom left
 plot (1+x)**-2 linetype 1 title '$(1 + t/\tau)^{-2}$', $c linetype 1 title '$e$ constant', \
-     $curve with lines linetype 2 title 'viscoelastic, theory', $v linetype 2 title '$e = 1 - a v^{1/5}$'
+     $curve with lines linetype 2 title 'viscoelastic, theory', $v linetype 2 title '$e = 1 - \alpha w^{1/5}$'
 """,
     )

@@ -53,6 +53,8 @@ def numbers(rows: list) -> dict:
         counts = [sum(row["method"] == method and row["verdict"] == verdict for row in cases) for verdict in VERDICTS]
         table += f"\\texttt{{{method}}} & " + " & ".join(map(str, counts)) + " \\\\ "
     made["table"] = table
+    tc = [row for row in cases if row["method"] == "exact" and ("_tc" in row["case"] or "contact_time" in row["case"])]
+    made |= {"tc_cases": str(len(tc)), "tc_wrong": str(sum(row["verdict"].startswith("wrong") for row in tc))}
     made["silent"] = str(sum(row["verdict"] == VERDICTS[-1] for row in cases))
     return made
 
