@@ -1,7 +1,7 @@
 """Makes the paper: build/paper/carom.pdf.
 
-    ./carom paper                     from the results that are kept (docs/paper/results), half a minute
-    ./carom paper --full [NAME...]    makes the named experiments anew first, or all of them (an hour); needs an idle machine
+    ./carom paper                     from the results that are kept (docs/paper/results), a few seconds
+    ./carom paper --full [NAME...]    makes the named experiments anew first, or all (a quarter of an hour on an idle machine)
 
 Every figure and every measured number of the paper comes from those results. The same results give the same bytes.
 """
