@@ -1,0 +1,95 @@
+// psi6 where the search has few cells to look into, and where distances are equal.
+#include "core/measure/bond_order.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numeric>
+#include <random>
+#include <tuple>
+#include <vector>
+
+#include "tests/support/disks_by_hand.hpp"
+#include "tests/support/draws.hpp"
+
+namespace carom {
+namespace {
+
+// From the six nearest of all other disks, each by its nearest image; of equally far ones, those of the lowest ids.
+std::complex<double> order_among_all(const Disks& d, std::size_t i, const Domain& box) {
+  std::vector<std::tuple<double, DiskId, double>> all;  // distance^2, id, angle
+  for (std::size_t j = 0; j < d.size(); ++j) {
+    if (j == i) continue;
+    const Vec2 apart = nearest_image(Vec2{d.x[j] - d.x[i], d.y[j] - d.y[i]}, box);
+    all.emplace_back(apart.x * apart.x + apart.y * apart.y, d.id[j], std::atan2(apart.y, apart.x));
+  }
+  std::sort(all.begin(), all.end());
+  std::complex<double> psi = 0.0;
+  for (std::size_t k = 0; k < 6; ++k) psi += std::polar(1.0 / 6.0, 6.0 * std::get<2>(all[k]));
+  return psi;
+}
+
+// Boxes of one to a few cells along each side, with walls and periodic: an axis all of whose cells have been looked
+// into is no bound, one of which a cell is left is.
+TEST(BondOrder, InBoxesOfFewCellsIsThatOfAllPairs) {
+  test::Draws draws(31);
+  for (int k = 0; k < 4000; ++k) {
+    const Domain box = test::box_of(1.0, draws.in(1.0, 7.0), k % 2 == 0, k % 4 < 2);
+    const Domain turned = test::box_of(box.height, 1.0, k % 4 < 2, k % 2 == 0);
+    Disks d, of_turned;
+    const auto n = static_cast<DiskId>(draws.in(7.0, 30.0));
+    for (DiskId id = 0; id < n; ++id) {
+      const double x = draws.in(0.0, 1.0), y = draws.in(0.0, box.height);
+      append(d, {x, y, 0, 0, 0.01, 1.0, id});
+      append(of_turned, {y, x, 0, 0, 0.01, 1.0, id});
+    }
+    const std::vector<Vec2> psi = bond_orders(d, box), psi_turned = bond_orders(of_turned, turned);
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::complex<double> expected = order_among_all(d, i, box);
+      ASSERT_NEAR(psi[i].x, expected.real(), 1e-9) << "1 x " << box.height << ", " << n << " disks, case " << k;
+      ASSERT_NEAR(psi[i].y, expected.imag(), 1e-9);
+      // Mirrored at the diagonal, angles are pi / 2 minus what they were: the complex conjugate times exp(3 pi i).
+      ASSERT_NEAR(psi_turned[i].x, -expected.real(), 1e-9) << box.height << " x 1, " << n << " disks, case " << k;
+      ASSERT_NEAR(psi_turned[i].y, expected.imag(), 1e-9);
+    }
+  }
+}
+
+// On a square lattice, whose distances are whole numbers, four of the next disks are equally far and two of them count.
+TEST(BondOrder, OfEquallyFarDisksTheLowestIdsCount) {
+  constexpr int side = 12;
+  const Domain box = test::box_of(side, side, true, true);
+  std::vector<DiskId> ids(side * side);
+  std::iota(ids.begin(), ids.end(), DiskId{0});
+  std::mt19937 random(5);
+  for (int times = 0; times < 3; ++times) {
+    std::shuffle(ids.begin(), ids.end(), random);
+    Disks d;
+    for (int k = 0; k < side * side; ++k) {
+      const Vec2 c = test::cell_centre(k, side, 1.0);
+      append(d, {c.x, c.y, 0, 0, 0.4, 1.0, ids[static_cast<std::size_t>(k)]});
+    }
+    const std::vector<Vec2> psi = bond_orders(d, box);
+    for (std::size_t i = 0; i < d.size(); ++i) {
+      const std::complex<double> expected = order_among_all(d, i, box);
+      EXPECT_NEAR(psi[i].x, expected.real(), 1e-12) << i;
+      EXPECT_NEAR(psi[i].y, expected.imag(), 1e-12) << i;
+    }
+  }
+}
+
+// Disks at one place have no direction to each other.
+TEST(BondOrder, DisksAtOnePlaceAddNothing) {
+  const Domain box = test::box_of(8.0, 8.0);
+  Disks d;
+  for (DiskId id = 0; id < 7; ++id) append(d, {4.0, 4.0, 0, 0, 0.1, 1.0, id});
+  append(d, {6.0, 4.0, 0, 0, 0.1, 1.0, 7});
+  const std::vector<Vec2> psi = bond_orders(d, box);
+  for (std::size_t i = 0; i < 7; ++i) EXPECT_TRUE(psi[i].x == 0.0 && psi[i].y == 0.0) << i;
+  EXPECT_NEAR(psi[7].x, 1.0, 1e-12) << "six in one direction";
+}
+
+}  // namespace
+}  // namespace carom
