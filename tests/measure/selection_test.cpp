@@ -1,0 +1,89 @@
+// [analysis] select: what is measured of a group while other disks are there is what is measured where it is alone; the
+// mean pressure and collision rate are those of all disks.
+#include <gtest/gtest.h>
+
+#include "core/measure/analysis.hpp"
+#include "core/measure/measured_disks.hpp"
+#include "tests/support/disks_by_hand.hpp"
+#include "tests/support/draws.hpp"
+
+namespace carom {
+namespace {
+
+Scene scene_of_all_quantities() {
+  Scene scene;
+  scene.box = test::box_of(20.0, 10.0, true, true);
+  AnalysisPlan& plan = scene.analysis;
+  plan.wanted.fill(true);
+  plan.pairs = plan.bonds = {4.0, 8, 0.0};
+  plan.speed_max = 5.0;
+  plan.speed_bins = plan.density_bins = plan.profile_bins = plan.wave_numbers = 6;
+  plan.density_every = plan.profile_every = 1.0;
+  return scene;
+}
+
+class Selection : public testing::Test {
+ protected:
+  // Two samples of sixty disks, of which every sixth but one belongs to the group, and of a group that is alone.
+  Selection() : scene_(scene_of_all_quantities()), of_group_(scene_), all_(empty_record(scene_)) {
+    of_group_.analysis.group = "some";
+    of_group_.analysis.ids = {20, 50};
+    selected_ = empty_record(of_group_);
+    alone_ = empty_record(scene_);
+    test::Draws draws(41);
+    State now;
+    for (const double t : {0.0, 2.0}) {
+      Disks disks = test::disks_of(test::random_disks(draws, scene_.box, 60, {0.1, 0.3, 1.0, 4.0, 2.0}));
+      now.time = now.counters.disk_time = t;
+      now.counters.virial = 30.0 * t;
+      now.counters.collisions = static_cast<Count>(7.0 * t);
+      take_sample(all_, scene_, disks, t, now, run_in_order);
+      take_sample(selected_, of_group_, disks, t, now, run_in_order);
+      take_sample(alone_, scene_, disks_of(disks, of_group_.analysis.ids), t, now, run_in_order);
+    }
+  }
+
+  Scene scene_, of_group_;
+  AnalysisRecord all_, selected_, alone_;
+};
+
+TEST_F(Selection, SeriesAreThoseOfTheGroup) {
+  const SampleSeries& found = selected_.series;
+  const SampleSeries& expected = alone_.series;
+  EXPECT_EQ(found.disks, (std::vector<double>{30.0, 30.0}));
+  EXPECT_EQ(found.followed, expected.followed);
+  EXPECT_EQ(found.displacement, expected.displacement);
+  EXPECT_EQ(found.temperature, expected.temperature);
+  EXPECT_EQ(found.autocorrelation, expected.autocorrelation);
+  EXPECT_EQ(found.local_order, expected.local_order);
+  EXPECT_EQ(found.global_order, expected.global_order);
+  EXPECT_EQ(found.bond_autocorrelation, expected.bond_autocorrelation);
+  EXPECT_NE(found.local_order, all_.series.local_order);
+}
+
+TEST_F(Selection, CurvesAreThoseOfTheGroup) {
+  EXPECT_EQ(selected_.pairs.counts, alone_.pairs.counts);
+  EXPECT_EQ(selected_.pairs.expected, alone_.pairs.expected);
+  EXPECT_EQ(selected_.bonds.pairs, alone_.bonds.pairs);
+  EXPECT_EQ(selected_.bonds.product, alone_.bonds.product);
+  EXPECT_EQ(selected_.speeds.counts, alone_.speeds.counts);
+  EXPECT_EQ(selected_.structure.along_x, alone_.structure.along_x);
+  EXPECT_EQ(selected_.structure.along_y, alone_.structure.along_y);
+  EXPECT_EQ(selected_.density.centres, alone_.density.centres);
+  EXPECT_EQ(selected_.density.covered, alone_.density.covered);
+  EXPECT_EQ(selected_.motion.px, alone_.motion.px);
+  EXPECT_EQ(selected_.motion.twice_thermal, alone_.motion.twice_thermal);
+  ASSERT_EQ(selected_.motion_rows.size(), 3U);
+  EXPECT_EQ(selected_.motion_rows[2].disks, alone_.motion_rows[2].disks);
+  EXPECT_EQ(selected_.density_rows[2].covered, alone_.density_rows[2].covered);
+}
+
+TEST_F(Selection, MeansAreThoseOfAllDisks) {
+  ASSERT_EQ(selected_.series.pressure.size(), 2U);
+  EXPECT_EQ(selected_.series.pressure[1], all_.series.pressure[1]);
+  EXPECT_NE(selected_.series.pressure[1], alone_.series.pressure[1]);
+  EXPECT_EQ(selected_.series.collision_rate[1], 14.0);
+}
+
+}  // namespace
+}  // namespace carom
