@@ -102,6 +102,28 @@ TEST(Profiles, TheLastMomentBelongsToTheLastRow) {
   EXPECT_EQ(rows[1].samples, 3U) << "at 3, 4 and 5";
 }
 
+// Times that are rounded lie a little beside the edges that they are meant to be at: (0.9 - 0.8) / 0.1 is less than 1,
+// and (1.1 - 0.8) / 0.1 more than 3.
+TEST(Profiles, RowsBeginWhereTheyAreMeantTo) {
+  Scene scene;
+  scene.box = {8.0, 8.0};
+  scene.run.t_end = 1.1;
+  AnalysisPlan& plan = scene.analysis;
+  plan.wanted[static_cast<std::size_t>(Quantity::density)] = true;
+  plan.start = 0.8;
+  plan.density_bins = 4;
+  plan.density_every = 0.1;
+  AnalysisRecord record = empty_record(scene);
+  for (const double t : {0.8, 0.9, 1.0, 1.1}) {
+    take_sample(record, scene, test::disks_of({{4.0, 1.0, 0.0, 0.0, 0.5, 1.0}}), t, {}, run_in_order);
+  }
+  const std::vector<DensityProfile> rows = density_rows_of_run(record, scene);
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[0].samples, 1U) << "at 0.8";
+  EXPECT_EQ(rows[1].samples, 1U) << "at 0.9";
+  EXPECT_EQ(rows[2].samples, 2U) << "at 1.0 and, the last moment, 1.1";
+}
+
 // A run that goes on to a later end has the rows of one that had this end from the start: what was its last moment, at
 // an edge, belongs to the row that begins there.
 TEST(Profiles, ALaterEndHasTheRowsOfAWholeRun) {
@@ -193,6 +215,13 @@ TEST(SpeedHistogram, CountsReducedSpeeds) {
   AnalysisPlan plan;
   plan.speed_max = 4.0;
   EXPECT_EQ(speed_curve(record, plan).value, (std::vector<double>{0.0, 1.0 / 3.0, 1.0 / 3.0, 0.0}));
+  // The same disks at four times the temperature: 0.5, 1, 5.
+  add_speeds(h, disks, 8.0, 4.0);
+  EXPECT_EQ(h.counts, (std::vector<Count>{1, 2, 1, 0}));
+  EXPECT_EQ(h.beyond, 2U);
+  EXPECT_EQ(h.largest_seen, 10.0);
+  EXPECT_EQ(h.samples, 2U);
+  EXPECT_EQ(h.temperature_sum, 10.0);
 }
 
 TEST(SpeedHistogram, MaxwellSharesMakeUpAll) {
