@@ -121,6 +121,35 @@ TEST(Displacement, ALookThatComesTooLateIsADoubt) {
   }
 }
 
+// A quarter is none, even where the rounding of both ends makes it five parts.
+TEST(Displacement, AQuarterOfThePeriodIsNoDoubt) {
+  const Domain box = test::box_of(10.0, 10.0, true, true);
+  const double before = std::nextafter(0.625, 0.0);
+  ASSERT_EQ(before + 2.5, 3.125) << "ends of parts";
+  DisplacementTally tally;
+  begin_displacement(tally, test::disks_of({{before, 3.125}}), box, 0.0);
+  look_at(tally, test::disks_of({{before + 2.5, before}}), box, 1.0);
+  EXPECT_EQ(tally.doubtful, 0U);
+}
+
+// Rounds from where a disk is met for the first time, up and down; one comes later.
+TEST(Displacement, RoundsAreThoseSinceTheFirstLook) {
+  const Domain box = test::box_of(10.0, 10.0, true, true);
+  DisplacementTally tally;
+  for (int k = 0; k <= 40; ++k) {
+    const double x = 9.0 + 2.0 * k, y = 1.3 - 1.5 * k, later = 0.5 - (k - 5);
+    Disks d;
+    append(d, {wrap(x, 10.0), wrap(y, 10.0), 0.0, 0.0, 0.5, 1.0, 0});
+    if (k >= 5) append(d, {wrap(later, 10.0), 5.0, 0.0, 0.0, 0.5, 1.0, 2});
+    follow_rounds(tally, d, box, k);
+    EXPECT_EQ(rounds_of(tally.x, 0), std::floor(x / 10.0)) << k;
+    EXPECT_EQ(rounds_of(tally.y, 0), std::floor(y / 10.0)) << k;
+    EXPECT_EQ(rounds_of(tally.x, 2), k >= 5 ? std::floor(later / 10.0) : 0.0) << k;
+    EXPECT_EQ(rounds_of(tally.y, 2), 0) << k;
+  }
+  EXPECT_EQ(tally.doubtful, 0U);
+}
+
 // One disk that flies along x, with a window from 0 to 1 at speed 1 and one from 1 to 1.2 at speed 12.5: a floor that
 // moves has kicked it.
 class KickedDisk : public Engine {
@@ -188,6 +217,50 @@ TEST(Displacement, ManyDisksAtRestAreFollowedWhenTheyAreSetGoing) {
       EXPECT_NEAR(mean.value, 16.0 * 16.0, 1.0) << "g t^2 / 2";
     }
     EXPECT_EQ(tally.doubtful, 0U) << falls;
+  }
+}
+
+// Many disks at rest, which all go up at speed 1 after the first step.
+class FleetSetGoing : public Engine {
+ public:
+  explicit FleetSetGoing(std::size_t disks) {
+    for (DiskId id = 0; id < disks; ++id) append(state_.disks, {id + 0.5, 8.0, 0.0, 0.0, 0.1, 1.0, id});
+  }
+  void step() override {
+    state_.time += 1.0;
+    if (state_.time < 2.0) return;
+    state_.disks.vy.assign(state_.disks.size(), 1.0);
+    for (double& y : state_.disks.y) y = wrap(y + 1.0, 16.0);
+  }
+  const State& state() const override { return state_; }
+  double disks_at(double /*t*/, Disks& out) const override {
+    out = state_.disks;
+    return state_.time;
+  }
+  std::vector<DiskContact> contacts() const override { return {}; }
+  const PhaseTimes& phase_times() const override { return times_; }
+  std::vector<std::string> take_warnings() override { return {}; }
+
+ private:
+  State state_;
+  PhaseTimes times_;
+};
+
+// Nothing that many disks do from their speeds on says that they will move where others are emitted, or speeds drawn:
+// they are asked every time.
+TEST(Displacement, ManyDisksAreAskedWhereSpeedsComeFromElsewhere) {
+  constexpr std::size_t disks = 4200;
+  for (const char* why : {"source", "diffusion", "thermostat"}) {
+    Scene scene = periodic_scene(Method::pairwise, 1.0, 40.0);
+    scene.box.width = disks;
+    scene.box.height = 16.0;
+    if (why[0] == 's') scene.sources.emplace_back();
+    if (why[0] == 'd') scene.physics.diffusion = 1.0;
+    if (why[0] == 't') scene.physics.thermostat = {Thermostat::Kind::langevin, 1.0, 1.0, 1.0};
+    FleetSetGoing engine(disks);
+    const Followed f = follow(engine, scene);
+    EXPECT_NEAR(f.mean.value, 39.0 * 39.0, 1e-6) << why;
+    EXPECT_EQ(f.doubtful, 0U) << why;
   }
 }
 
