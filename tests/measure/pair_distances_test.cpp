@@ -100,6 +100,32 @@ TEST(PairDistances, TwoDisksOfOneCellMeetRoundThePeriodicSide) {
   }
 }
 
+// Of two disks a little less than r_max apart one above the other, the upper one a last bit below the edge of a row: a
+// division may round it into the row above.
+TEST(PairDistances, NoPairIsLostAtTheEdgeOfARow) {
+  test::Draws draws(17);
+  int rounded_up = 0;
+  for (int k = 0; k < 60; ++k) {
+    const Domain box = test::box_of(100.0, draws.in(9.0, 11.0));
+    Disks others;  // further apart, so that there are rows
+    for (DiskId id = 0; id < 160; ++id) {
+      append(others, {4.0 + 2.3 * (id % 40), box.height * (id / 40 + 0.5) / 4.0, 0, 0, 0.1, 1.0, id});
+    }
+    const auto rows = static_cast<double>(DistanceCells(others, box, {2.0, 4, 0.0}).rows());
+    ASSERT_GE(rows, 8.0);
+    for (double row = 4.0; row < rows; row += 1.0) {
+      const double high = std::nextafter(row * (box.height / rows), 0.0), low = high - 2.0;
+      rounded_up += std::floor(high / box.height * rows) == row ? 1 : 0;
+      Disks disks = others;
+      append(disks, {1.0, low, 0, 0, 0.1, 1.0, 160});
+      append(disks, {1.0, high, 0, 0, 0.1, 1.0, 161});
+      const DistanceBins bins{std::nextafter(high - low, 3.0), 1, 0.0};
+      ASSERT_EQ(count_pairs(disks, box, bins).counts, std::vector<Count>{2}) << box.height << ", row " << row;
+    }
+  }
+  EXPECT_GT(rounded_up, 20) << "else the test shows nothing";
+}
+
 // The images above are displaced; from two rows, which are one, to ten.
 TEST(PairDistances, CountsInAShearedBoxAreThoseOfAllPairs) {
   test::Draws draws(16);

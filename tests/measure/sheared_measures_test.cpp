@@ -178,6 +178,22 @@ TEST(ShearedMeasures, PressureOfASampleIsOfVelocitiesRelativeToTheFlow) {
   EXPECT_DOUBLE_EQ(record.series.pressure[1], (12.5 + 14.0 / 4.0) / 200.0);
 }
 
+// The same two disks: energies of 0 and 12.5 relative to the flow, half of the sum each, so that speeds are 0 and 2, in
+// units of sqrt(T / m).
+TEST(ShearedMeasures, TemperatureAndSpeedsAreRelativeToTheFlow) {
+  Scene scene;
+  scene.box = sheared_box(20.0, 10.0, 0.0);
+  scene.analysis.wanted[static_cast<std::size_t>(Quantity::speeds)] = true;
+  scene.analysis.speed_max = 6.0;
+  scene.analysis.speed_bins = 4;
+  const Disks disks = test::disks_of({{5.0, 2.5, -0.25, 0.0, 0.1, 1.0}, {15.0, 2.5, 2.75, 4.0, 0.1, 1.0}});
+  AnalysisRecord record = empty_record(scene);
+  take_sample(record, scene, disks, 0.0, {}, run_in_order);
+  EXPECT_EQ(record.series.temperature, std::vector<double>{6.25});
+  EXPECT_EQ(record.speeds.counts, (std::vector<Count>{1, 1, 0, 0}));
+  EXPECT_DOUBLE_EQ(record.speeds.largest_seen, 2.0);
+}
+
 // The same two disks: 0 and 3^2 + 4^2.
 TEST(ShearedMeasures, VelocitiesAreRememberedRelativeToTheFlow) {
   Scene scene;

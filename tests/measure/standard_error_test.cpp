@@ -121,6 +121,22 @@ TEST(DiffusionFit, ErrorKnowsOfPartsThatAreCorrelated) {
   EXPECT_DOUBLE_EQ(fit.error, std::sqrt(4.0 / 3.0 / 4.0));
 }
 
+// Eight steps in the second half are enough, one for each part; seven are not.
+TEST(DiffusionFit, NeedsEightStepsInTheSecondHalf) {
+  std::vector<double> time, square;
+  for (int k = 0; k <= 15; ++k) {
+    time.push_back(k);
+    square.push_back(12.0 * k);
+  }
+  EXPECT_TRUE(std::isnan(fit_diffusion(time, square).value)) << "from 8 to 15";
+  time.push_back(16.0);
+  square.push_back(12.0 * 16.0);
+  const DiffusionFit fit = fit_diffusion(time, square);
+  EXPECT_EQ(fit.from, 8.0);
+  EXPECT_DOUBLE_EQ(fit.value, 3.0);
+  EXPECT_DOUBLE_EQ(fit_diffusion(time, square, 1.0).value, 6.0) << "along one axis";
+}
+
 TEST(DiffusionFit, SaysNothingOfFewSamples) {
   EXPECT_TRUE(std::isnan(fit_diffusion({0, 1, 2, 3}, {0, 1, 2, 3}).value));
   EXPECT_TRUE(std::isnan(fit_diffusion({}, {}).value));
