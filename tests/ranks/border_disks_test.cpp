@@ -8,8 +8,10 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <vector>
 
+#include "core/measure/bond_correlation.hpp"
 #include "core/measure/bond_order.hpp"
 #include "core/measure/pair_records.hpp"
 #include "parallel/ranks/local_ranks.hpp"
@@ -213,6 +215,105 @@ TEST(OrdersOverRanks, AreThoseOfAllDisksOrNotKnown) {
   });
   EXPECT_GT(known, 40);
   EXPECT_GT(unknown, 40);
+}
+
+// Disks of a rank by where they are.
+Disks those_of(const Disks& all, const SlabCut& cut, int rank) {
+  Disks own;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (cut.rank_at(all.y[i]) == rank) append(own, disk_at(all, i));
+  }
+  return own;
+}
+
+void expect_orders(const std::optional<Disks>& found, const std::vector<Vec2>& expected) {
+  ASSERT_TRUE(found.has_value());
+  for (std::size_t i = 0; i < found->size(); ++i) {
+    ASSERT_EQ(found->vx[i], expected[found->id[i]].x);
+    ASSERT_EQ(found->vy[i], expected[found->id[i]].y);
+  }
+}
+
+// Two crowds, and between them one disk at the border of two slabs, whose neighbours are on both sides and further away
+// than those of an even gas: ranks look again, and six that its rank knows meanwhile are no answer.
+TEST(OrdersOverRanks, AreThoseOfAllDisksWhereNeighboursAreFar) {
+  const Domain box = test::box_of(width, height, true, false);
+  const SlabCut cut{{0.0, 30.0, height}};
+  EXPECT_LT(first_reach(box, 401), 7.5);
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    test::Draws draws(seed);
+    Disks all;
+    append(all, {draws.in(0.0, width), 30.01, 0.0, 0.0, 0.1, 1.0, 0});
+    for (DiskId id = 1; id <= 400; ++id) {
+      const double y = id % 2 == 0 ? draws.in(0.0, 22.5) : draws.in(37.5, height);
+      append(all, {draws.in(0.0, width), y, 0.0, 0.0, 0.1, 1.0, id});
+    }
+    const auto expected = bond_orders(all, box);
+    run_on_local_ranks(2, [&](Ranks& ranks) {
+      expect_orders(orders_over_ranks(ranks, {}, box, those_of(all, cut, ranks.rank()), cut), expected);
+    });
+  }
+}
+
+// Of all disks together seven are needed, however few each rank has.
+TEST(OrdersOverRanks, NeedSevenDisksOfAllRanks) {
+  const Domain box = test::box_of(width, height, true, false);
+  const SlabCut cut{{0.0, 0.5 * height, height}};
+  AnalysisPlan plan;
+  plan.wanted[static_cast<std::size_t>(Quantity::bond_correlation)] = true;
+  plan.bonds = {18.0, 5};
+  test::Draws draws(3);
+  Disks all;
+  for (DiskId id = 0; id < 6; ++id) {
+    append(all, {draws.in(0.0, width), draws.in(0.0, height), 0.0, 0.0, 0.1, 1.0, id});
+  }
+  run_on_local_ranks(2, [&](Ranks& ranks) {
+    const auto orders = orders_over_ranks(ranks, plan, box, those_of(all, cut, ranks.rank()), cut);
+    ASSERT_TRUE(orders.has_value());
+    for (const double re : orders->vx) EXPECT_TRUE(std::isnan(re));
+    EXPECT_FALSE(bond_pairs_over_ranks(ranks, plan, box, *orders, cut, run_in_order).has_value());
+  });
+  append(all, {0.5 * width, 0.4 * height, 0.0, 0.0, 0.1, 1.0, 6});
+  const auto expected = bond_orders(all, box);
+  const BondPairs pairs = bond_pairs(with_orders(all, expected), box, distance_bins(plan.bonds));
+  run_on_local_ranks(2, [&](Ranks& ranks) {
+    const auto orders = orders_over_ranks(ranks, plan, box, those_of(all, cut, ranks.rank()), cut);
+    expect_orders(orders, expected);
+    const auto found = bond_pairs_over_ranks(ranks, plan, box, *orders, cut, run_in_order);
+    ASSERT_TRUE(found.has_value());
+    EXPECT_EQ(found->counts, pairs.counts);
+  });
+}
+
+// Known as far as their own distances reach, whether or not g(r) is asked for.
+TEST(BondPairsOverRanks, AreThoseOfAllDisksOrNotKnown) {
+  std::atomic<int> known = 0, unknown = 0;
+  for_gases([&](const Gas& gas, std::uint64_t seed) {
+    if (seed % 3 != 0) return;  // a third is enough, on three and four ranks
+    AnalysisPlan plan;
+    plan.wanted[static_cast<std::size_t>(Quantity::bond_correlation)] = true;
+    plan.bonds = {2.0 + static_cast<double>(seed), 30};
+    const std::vector<Vec2> psi = bond_orders(gas.all, gas.box);
+    const BondPairs expected = bond_pairs(with_orders(gas.all, psi), gas.box, distance_bins(plan.bonds));
+    const bool can_tell = is_within_neighbours(gas.cut, gas.box, plan.bonds.r_max, gas.excursion());
+    run_on_local_ranks(gas.cut.ranks(), [&](Ranks& ranks) {
+      Disks own = gas.of_rank(ranks.rank());
+      for (std::size_t i = 0; i < own.size(); ++i) {
+        own.vx[i] = psi[own.id[i]].x;
+        own.vy[i] = psi[own.id[i]].y;
+      }
+      const auto pairs = bond_pairs_over_ranks(ranks, plan, gas.box, own, gas.cut, run_in_order);
+      ASSERT_EQ(pairs.has_value(), can_tell);
+      ++(can_tell ? known : unknown);
+      if (!can_tell) return;
+      EXPECT_EQ(pairs->counts, expected.counts);
+      for (std::size_t k = 0; k < expected.product.size(); ++k) {
+        EXPECT_EQ(value_of(pairs->product[k]), value_of(expected.product[k])) << k;
+      }
+    });
+  });
+  EXPECT_GT(known, 30);
+  EXPECT_GT(unknown, 30);
 }
 
 }  // namespace
