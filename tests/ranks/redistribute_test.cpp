@@ -149,6 +149,76 @@ TEST(Redistribute, ShowsGhostsInManyMessagesAndDropsThem) {
   });
 }
 
+// Rank 1 has more than go into one message, at the ends of which no disk is lost.
+TEST(CollectOnFirst, BringsAllDisksAndLoadsInManyMessages) {
+  const std::vector<double> heights = random_heights();
+  run_on_local_ranks(3, [&](Ranks& ranks) {
+    State state = empty_state();
+    for (DiskId id = 0; id < disks; ++id) {
+      const int owner = id % 12 > 1 ? 1 : id % 12 == 0 ? 0 : 2;
+      if (owner != ranks.rank()) continue;
+      take_in(state, disk_of(id, heights[id]), columns);
+    }
+    if (ranks.rank() < 2) state.loads = {{7, 9, 2.0}};
+    if (ranks.rank() == 2) state.loads = {{1, 7, 1.0}, {8, 9, 3.0}};
+    collect_on_first(ranks, columns, state);
+    expect_disks(state, heights, [&](double) { return ranks.rank() == 0; });
+    if (ranks.rank() > 0) return;
+    ASSERT_EQ(state.loads.size(), 3U) << "that across a border once";
+    EXPECT_EQ(state.loads[0].force, 1.0);
+    EXPECT_EQ(state.loads[1].force, 2.0);
+    EXPECT_EQ(state.loads[2].force, 3.0);
+  });
+}
+
+// Slabs of about as many disks each, wherever the ranks have them: ten at the middle of each of a hundred rows.
+TEST(CutByRowsOfAll, SharesDisksOut) {
+  const Domain box = periodic_box();
+  for (const int count : {2, 4, 5}) {
+    run_on_local_ranks(count, [&](Ranks& ranks) {
+      Disks own;
+      for (DiskId id = 0; id < 1000; ++id) {
+        if (static_cast<int>(id) % count != ranks.rank()) continue;
+        append(own, {0.0, (id % 100) + 0.5, 0.0, 0.0, 0.5, 2.0, id});
+      }
+      const SlabCut cut = cut_by_rows_of_all(ranks, box, own);
+      std::vector<int> disks_of(static_cast<std::size_t>(count), 0);
+      for (DiskId id = 0; id < 1000; ++id) ++disks_of[static_cast<std::size_t>(cut.rank_at((id % 100) + 0.5))];
+      for (const int n : disks_of) EXPECT_EQ(n, 1000 / count);
+    });
+  }
+}
+
+// The first ones give all ranks what they have in common; those that differ make a column, and leave the others as
+// they were.
+TEST(TakeNewcomers, KeepsWhatTheOthersHave) {
+  const SlabCut cut{{0.0, 5.0, 10.0}};
+  const auto newcomers = [](double radius, double mass, DiskId id) {
+    Disks some;
+    append(some, {1.0, 2.0, 0.0, 0.0, radius, mass, id});
+    append(some, {1.0, 8.0, 0.0, 0.0, radius, mass, id + 1});
+    return some;
+  };
+  for (const int rank : {0, 1}) {
+    DiskColumns there;
+    Disks own;
+    take_newcomers(cut, rank, newcomers(0.5, 2.0, 0), true, there, own);
+    EXPECT_FALSE(there.radius || there.mass);
+    EXPECT_EQ(own.common_radius, 0.5);
+    EXPECT_EQ(own.common_mass, 2.0);
+    take_newcomers(cut, rank, newcomers(0.5, 3.0, 2), false, there, own);
+    EXPECT_TRUE(there.mass && !there.radius);
+    take_newcomers(cut, rank, newcomers(0.7, 2.0, 4), false, there, own);
+    EXPECT_TRUE(there.mass && there.radius);
+    ASSERT_EQ(own.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(own.id[i], 2 * i + static_cast<std::size_t>(rank));
+      EXPECT_EQ(own.radius_of(i), i < 2 ? 0.5 : 0.7);
+      EXPECT_EQ(own.mass_of(i), i == 1 ? 3.0 : 2.0);
+    }
+  }
+}
+
 // Rank 0 begins with all disks, and cuts slabs anew at once.
 TEST(Redistribute, GivesDisksToOtherRanksInManyMessages) {
   const Scene scene = test::slab_scene("hot", "width = 100.0\nheight = 120.0\n",

@@ -142,6 +142,7 @@ TEST(StateOfRanks, SaysOfAllDisksWhatOneMachineSays) {
           expect_same(lead.overlaps().disks, overlaps.disks);
           expect_same(lead.overlaps().wall, overlaps.wall);
           deepest = std::max(deepest, overlaps.disks.size);
+          EXPECT_TRUE(expect_moment_in_pieces(*engine, *expected, 0.0, scene));
           engine->step();
           expected->step();
           if (step % 3 == 0) engine->release_memory();
