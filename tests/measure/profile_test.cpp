@@ -82,46 +82,34 @@ TEST(Profiles, RowsDivideTheRun) {
   }
 }
 
-// Where the run ends at an edge, there is no row beyond it.
-TEST(Profiles, TheLastMomentBelongsToTheLastRow) {
+// How many samples each row of a density profile has, with a row for each `every` of a run from the first to the last
+// of these times.
+std::vector<Count> samples_of_rows(const std::vector<double>& times, double every) {
   Scene scene;
   scene.box = {8.0, 8.0};
-  scene.run.t_end = 5.0;
+  scene.run.t_end = times.back();
   AnalysisPlan& plan = scene.analysis;
   plan.wanted[static_cast<std::size_t>(Quantity::density)] = true;
-  plan.start = 1.0;
+  plan.start = times.front();
   plan.density_bins = 4;
-  plan.density_every = 2.0;
+  plan.density_every = every;
   AnalysisRecord record = empty_record(scene);
-  for (int k = 1; k <= 5; ++k) {
-    take_sample(record, scene, test::disks_of({{4.0, 1.0, 0.0, 0.0, 0.5, 1.0}}), k, {}, run_in_order);
-  }
-  const std::vector<DensityProfile> rows = density_rows_of_run(record, scene);
-  ASSERT_EQ(rows.size(), 2U);
-  EXPECT_EQ(rows[0].samples, 2U);
-  EXPECT_EQ(rows[1].samples, 3U) << "at 3, 4 and 5";
+  const Disks disks = test::disks_of({{4.0, 1.0, 0.0, 0.0, 0.5, 1.0}});
+  for (const double t : times) take_sample(record, scene, disks, t, {}, run_in_order);
+  std::vector<Count> samples;
+  for (const DensityProfile& row : density_rows_of_run(record, scene)) samples.push_back(row.samples);
+  return samples;
+}
+
+// Where the run ends at an edge, there is no row beyond it.
+TEST(Profiles, TheLastMomentBelongsToTheLastRow) {
+  EXPECT_EQ(samples_of_rows({1.0, 2.0, 3.0, 4.0, 5.0}, 2.0), (std::vector<Count>{2, 3})) << "the last at 3, 4 and 5";
 }
 
 // Times that are rounded lie a little beside the edges that they are meant to be at: (0.9 - 0.8) / 0.1 is less than 1,
 // and (1.1 - 0.8) / 0.1 more than 3.
 TEST(Profiles, RowsBeginWhereTheyAreMeantTo) {
-  Scene scene;
-  scene.box = {8.0, 8.0};
-  scene.run.t_end = 1.1;
-  AnalysisPlan& plan = scene.analysis;
-  plan.wanted[static_cast<std::size_t>(Quantity::density)] = true;
-  plan.start = 0.8;
-  plan.density_bins = 4;
-  plan.density_every = 0.1;
-  AnalysisRecord record = empty_record(scene);
-  for (const double t : {0.8, 0.9, 1.0, 1.1}) {
-    take_sample(record, scene, test::disks_of({{4.0, 1.0, 0.0, 0.0, 0.5, 1.0}}), t, {}, run_in_order);
-  }
-  const std::vector<DensityProfile> rows = density_rows_of_run(record, scene);
-  ASSERT_EQ(rows.size(), 3U);
-  EXPECT_EQ(rows[0].samples, 1U) << "at 0.8";
-  EXPECT_EQ(rows[1].samples, 1U) << "at 0.9";
-  EXPECT_EQ(rows[2].samples, 2U) << "at 1.0 and, the last moment, 1.1";
+  EXPECT_EQ(samples_of_rows({0.8, 0.9, 1.0, 1.1}, 0.1), (std::vector<Count>{1, 1, 2})) << "the last at 1.0 and 1.1";
 }
 
 // A run that goes on to a later end has the rows of one that had this end from the start: what was its last moment, at
