@@ -41,5 +41,5 @@ def word(text: str) -> str:
 
 
 def definitions(numbers: dict) -> str:
-    """The lines that define each key; \\result of another is an error, as paper.tex has it."""
+    """The lines that define each key; \\result of another is an error (carom.tex)."""
     return "".join(f"\\defineresult{{{key}}}{{{text}}}\n" for key, text in sorted(numbers.items()))

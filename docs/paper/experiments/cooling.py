@@ -15,7 +15,6 @@ TAU = {
     "constant": 4.0 / ((1.0 - RESTITUTION**2) * RATE),
     "viscoelastic": 1.0 / (0.6 * RATE * VISCOELASTIC * 4.0**0.1 * math.gamma(2.1)),
 }
-EXPONENT = {"constant": 2.0, "viscoelastic": 5.0 / 3.0}
 TIMES = [0.1, 0.2, 0.35, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 4.7]  # in units of tau
 
 

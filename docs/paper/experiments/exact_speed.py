@@ -58,7 +58,6 @@ def numbers(rows: list) -> dict:
     for key, disks in (("large", 10**5), ("million", most)):
         over = rate(rows, "exact", disks) / rate(rows, "yardstick", disks)
         made[f"over_plain_{key}"] = tex_numbers.digits(over, 1)
-    made["over_plain"] = tex_numbers.digits(rate(rows, "exact", most, 2) / rate(rows, "yardstick", most), 0)
     made["over_plain_least"] = tex_numbers.digits(
         min(rate(rows, "exact", n) / rate(rows, "yardstick", n) for n in (10**3, 10**4, 10**5, most)), 1
     )

@@ -36,6 +36,4 @@ def numbers(rows: list) -> dict:
         "one": tex_numbers.digits(figures["G: step, 1 thread"], 1),
         "two": tex_numbers.digits(figures["G: step, 2 threads"], 1),
         "over_copy": tex_numbers.digits(figures["G: step over copy limit, 2 threads"], 1),
-        "copy": tex_numbers.digits(figures["G: copy limit, 2 threads"], 2),
-        "second_thread": tex_numbers.digits(figures["G: step, 2 threads against 1"], 2),
     }

@@ -28,23 +28,12 @@ def run(program, *arguments, environment={}, statuses=(0,)) -> str:
     return done.stdout
 
 
-def summary(scene, *arguments, environment={}, statuses=(0,)) -> dict:
-    """The summary of `carom run` of a scene: a file, or the text of one."""
+def summary(scene, *arguments, environment={}, statuses=(0,)):
+    """The summary of `carom run` of a scene, a file or the text of one; None where it printed none (statuses has 2)."""
     with scratch() as folder:
         if not isinstance(scene, Path):
             (folder / "scene.toml").write_text(scene)
             scene = folder / "scene.toml"
-        return json.loads(
-            run(
-                RELEASE / "carom",
-                "run",
-                scene,
-                "-o",
-                folder / "out",
-                "--json",
-                "--quiet",
-                *arguments,
-                environment=environment,
-                statuses=statuses,
-            )
-        )
+        command = [RELEASE / "carom", "run", scene, "-o", folder / "out", "--json", "--quiet", *arguments]
+        said = run(*command, environment=environment, statuses=statuses)
+    return json.loads(said) if said else None
