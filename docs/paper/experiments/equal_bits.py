@@ -85,7 +85,7 @@ def run() -> list:
     with scratch() as folder:
         for name, scene in LARGE.items():
             file = folder / f"{name}.toml"
-            file.write_text(carom.Scene(scene).toml)
+            file.write_text(carom.Scene(scene).toml())
             rows.append(of_scene(file))
     return rows
 
