@@ -6,15 +6,23 @@ namespace carom {
 
 namespace {
 
-// The distance of a point from a shape's segment, squared.
-double distance2(const Clearance::Shape& shape, Vec2 point) {
+// A step is so much of a cell: what is stored is less than it is by no more.
+constexpr double steps_a_cell = 4.0;
+constexpr std::uint8_t most_steps = 255;
+// So many cells around everything, distances are taken of each cell's middle; beyond, cells are counted.
+constexpr double cells_measured = 4.0;
+// A little less than it is, as places are rounded.
+constexpr double share = 1.0 - 1e-6;
+
+// The distance of a point from a shape's segment.
+double distance_from_segment(const Clearance::Shape& shape, Vec2 point) {
   const Vec2 apart{point.x - shape.from.x, point.y - shape.from.y};
   const double length2 = shape.along.x * shape.along.x + shape.along.y * shape.along.y;
-  const double share = apart.x * shape.along.x + apart.y * shape.along.y;
-  const double s = length2 > 0.0 ? std::clamp(share / length2, 0.0, 1.0) : 0.0;
+  const double forward = apart.x * shape.along.x + apart.y * shape.along.y;
+  const double s = length2 > 0.0 ? std::clamp(forward / length2, 0.0, 1.0) : 0.0;
   const double dx = apart.x - s * shape.along.x;
   const double dy = apart.y - s * shape.along.y;
-  return dx * dx + dy * dy;
+  return std::sqrt(dx * dx + dy * dy);
 }
 
 // The shares of a shape's segment between which its height is within `reach` of this one; none where first > last.
@@ -32,14 +40,16 @@ Part part_at_height(const Clearance::Shape& shape, double height, double reach) 
 
 Clearance::Clearance(const Domain& box, const std::vector<Shape>& shapes, std::size_t cells) {
   begin(box, cells);
-  for (const Shape& shape : shapes) mark_shape(shape);
-  spread();
+  std::vector<double> nearest(steps_.size(), HUGE_VAL);
+  for (const Shape& shape : shapes) see_shape(shape, nearest);
+  end(nearest);
 }
 
 Clearance::Clearance(const Domain& box, const std::vector<Extent>& extents, std::size_t cells) {
   begin(box, cells);
-  for (const Extent& extent : extents) mark_all(extent);
-  spread();
+  std::vector<double> nearest(steps_.size(), HUGE_VAL);
+  for (const Extent& extent : extents) see_extent(extent, nearest);
+  end(nearest);
 }
 
 void Clearance::begin(const Domain& box, std::size_t cells) {
@@ -52,66 +62,92 @@ void Clearance::begin(const Domain& box, std::size_t cells) {
   x_ = axis(box.width, box.periodic_x(), across);
   y_ = axis(box.height, box.periodic_y(), std::clamp(most / across, 1.0, most));
   cell_ = std::min(1.0 / x_.cells_per_length, 1.0 / y_.cells_per_length);
-  away_.assign(static_cast<std::size_t>(x_.cells * y_.cells), furthest);
+  half_diagonal_ = 0.5 * std::hypot(1.0 / x_.cells_per_length, 1.0 / y_.cells_per_length);
+  step_ = share * cell_ / steps_a_cell;
+  steps_.assign(static_cast<std::size_t>(x_.cells * y_.cells), most_steps);
 }
 
-// What is as long as a period is everywhere along it.
-void Clearance::mark_all(Extent extent) {
-  const auto end = [](double low, double high, const CellAxis& axis) {
-    return axis.periodic ? std::min(high, low + axis.length) : high;
-  };
-  extent.high = {end(extent.low.x, extent.high.x, x_), end(extent.low.y, extent.high.y, y_)};
-  mark(extent, [](Vec2) { return true; });
-}
-
-// A cell may be touched if its middle is within half its diagonal. What reaches beyond a side that is not periodic is
-// in the outermost cells there.
-void Clearance::mark_shape(const Shape& shape) {
-  const double half_diagonal = 0.5 * std::hypot(1.0 / x_.cells_per_length, 1.0 / y_.cells_per_length);
-  const double reach = (shape.radius + half_diagonal) * (1.0 + 1e-6);
+// Row by row, so that a long segment costs the cells along it, not those of its rectangle. What reaches beyond a side
+// that is not periodic would be in no cell: its rectangle is.
+void Clearance::see_shape(const Shape& shape, std::vector<double>& nearest) const {
   const Vec2 to{shape.from.x + shape.along.x, shape.from.y + shape.along.y};
   const Extent extent{{std::min(shape.from.x, to.x) - shape.radius, std::min(shape.from.y, to.y) - shape.radius},
                       {std::max(shape.from.x, to.x) + shape.radius, std::max(shape.from.y, to.y) + shape.radius}};
   const auto is_beyond = [](double low, double high, const CellAxis& axis) {
     return !axis.periodic && (low < 0.0 || high > axis.length);
   };
-  if (is_beyond(extent.low.x, extent.high.x, x_) || is_beyond(extent.low.y, extent.high.y, y_)) return mark_all(extent);
-  // Row by row, so that a long segment costs the cells along it, not those of its rectangle.
-  const CellAxis::Span rows = y_.span(extent.low.y, extent.high.y);
+  if (is_beyond(extent.low.x, extent.high.x, x_) || is_beyond(extent.low.y, extent.high.y, y_)) {
+    return see_extent(extent, nearest);
+  }
+  const double reach = shape.radius + half_diagonal_ + cells_measured * cell_;
+  const CellAxis::Span rows = y_.span(std::min(shape.from.y, to.y) - reach, std::max(shape.from.y, to.y) + reach);
   for (std::int64_t row = rows.first; row <= rows.last; ++row) {
     const double height = (static_cast<double>(row) + 0.5) / y_.cells_per_length;
     const Part part = part_at_height(shape, height, reach);
     if (part.first > part.last) continue;
     const double one = shape.from.x + part.first * shape.along.x;
     const double other = shape.from.x + part.last * shape.along.x;
-    mark({{std::min(one, other) - shape.radius, height}, {std::max(one, other) + shape.radius, height}},
-         [&](Vec2 middle) { return distance2(shape, middle) <= reach * reach; });
+    see(
+        {{std::min(one, other) - reach, height}, {std::max(one, other) + reach, height}},
+        [&](Vec2 middle) { return std::max(distance_from_segment(shape, middle) - shape.radius, 0.0); }, nearest);
   }
 }
 
-// occupied(middle): does what is there reach into the cell of this middle, which may lie beyond periodic sides?
-template <class Occupied>
-void Clearance::mark(const Extent& extent, Occupied&& occupied) {
+// What is as long as a period is everywhere along it. Of what is beyond a side that is not periodic, the nearest place
+// in the box, which is no further from all the others.
+void Clearance::see_extent(Extent extent, std::vector<double>& nearest) const {
+  const auto clip = [](double& low, double& high, const CellAxis& axis) {
+    if (axis.periodic) {
+      high = std::min(high, low + axis.length);
+    } else {
+      low = std::clamp(low, 0.0, axis.length);
+      high = std::clamp(high, 0.0, axis.length);
+    }
+  };
+  clip(extent.low.x, extent.high.x, x_);
+  clip(extent.low.y, extent.high.y, y_);
+  const double reach = half_diagonal_ + cells_measured * cell_;
+  const auto outside = [](double c, double low, double high) { return std::max({low - c, c - high, 0.0}); };
+  see(
+      {{extent.low.x - reach, extent.low.y - reach}, {extent.high.x + reach, extent.high.y + reach}},
+      [&](Vec2 middle) {
+        const double x = outside(middle.x, extent.low.x, extent.high.x);
+        const double y = outside(middle.y, extent.low.y, extent.high.y);
+        return std::sqrt(x * x + y * y);
+      },
+      nearest);
+}
+
+// distance(middle): of what is in the extent from the middle of a cell, which may lie beyond periodic sides.
+template <class Distance>
+void Clearance::see(const Extent& extent, Distance&& distance, std::vector<double>& nearest) const {
   const CellAxis::Span rows = y_.span(extent.low.y, extent.high.y);
   const CellAxis::Span columns = x_.span(extent.low.x, extent.high.x);
   for (std::int64_t row = rows.first; row <= rows.last; ++row) {
     for (std::int64_t column = columns.first; column <= columns.last; ++column) {
       const Vec2 middle{(static_cast<double>(column) + 0.5) / x_.cells_per_length,
                         (static_cast<double>(row) + 0.5) / y_.cells_per_length};
-      if (occupied(middle)) away_[static_cast<std::size_t>(y_.in_box(row) * x_.cells + x_.in_box(column))] = 0;
+      double& there = nearest[static_cast<std::size_t>(y_.in_box(row) * x_.cells + x_.in_box(column))];
+      there = std::min(there, distance(middle));
     }
   }
 }
 
-// From the cells that are occupied to the eight around each, and so on.
-void Clearance::spread() {
+// How many cells away, along either side, the nearest one is that something reaches into: from those to the eight
+// around each, and so on.
+std::vector<std::uint8_t> Clearance::rings_around(const std::vector<double>& nearest) const {
+  constexpr std::uint8_t furthest = 255;
   struct Cell {
     std::int64_t column, row;
   };
+  std::vector<std::uint8_t> rings(nearest.size(), furthest);
   std::vector<Cell> reached;
   for (std::int64_t row = 0; row < y_.cells; ++row) {
     for (std::int64_t column = 0; column < x_.cells; ++column) {
-      if (away_[static_cast<std::size_t>(row * x_.cells + column)] == 0) reached.push_back({column, row});
+      const auto cell = static_cast<std::size_t>(row * x_.cells + column);
+      if (nearest[cell] * share > half_diagonal_) continue;
+      rings[cell] = 0;
+      reached.push_back({column, row});
     }
   }
   // The cell before and after, across a periodic side; itself where there is none.
@@ -122,17 +158,56 @@ void Clearance::spread() {
   };
   for (std::size_t next = 0; next < reached.size(); ++next) {
     const Cell from = reached[next];
-    const std::uint8_t away = away_[static_cast<std::size_t>(from.row * x_.cells + from.column)];
-    if (away + 1 >= furthest) return;
+    const std::uint8_t away = rings[static_cast<std::size_t>(from.row * x_.cells + from.column)];
+    if (away + 1 >= furthest) break;
     for (const std::int64_t row : {next_to(from.row, -1, y_), from.row, next_to(from.row, 1, y_)}) {
       for (const std::int64_t column : {next_to(from.column, -1, x_), from.column, next_to(from.column, 1, x_)}) {
-        std::uint8_t& there = away_[static_cast<std::size_t>(row * x_.cells + column)];
+        std::uint8_t& there = rings[static_cast<std::size_t>(row * x_.cells + column)];
         if (there != furthest) continue;
         there = static_cast<std::uint8_t>(away + 1);
         reached.push_back({column, row});
       }
     }
   }
+  return rings;
+}
+
+// The larger of two bounds: by the distance of the cell's middle, measured or more than what was measured, and by the
+// cells between it and those that something reaches into.
+void Clearance::end(const std::vector<double>& nearest) {
+  const std::vector<std::uint8_t> rings = rings_around(nearest);
+  for (std::size_t c = 0; c < steps_.size(); ++c) {
+    const double measured = std::min(nearest[c] - half_diagonal_, cells_measured * cell_);
+    const double counted = (static_cast<double>(rings[c]) - 1.0) * cell_;
+    const double steps = std::floor(std::max({measured, counted, 0.0}) * (steps_a_cell / cell_));
+    steps_[c] = static_cast<std::uint8_t>(std::min(steps, static_cast<double>(most_steps)));
+  }
+}
+
+void Clearance::displace(Vec2 low, Vec2 high) {
+  const auto in_box = [](double shift, const CellAxis& axis) {
+    return axis.periodic ? shift - std::floor(shift / axis.length) * axis.length : shift;
+  };
+  shift_ = {in_box(0.5 * (low.x + high.x), x_), in_box(0.5 * (low.y + high.y), y_)};
+  // What has gone round a periodic box many times is known less exactly.
+  const double way = std::max({std::abs(low.x), std::abs(high.x), std::abs(low.y), std::abs(high.y)});
+  const double rounding = 0x1p-46 * (way + x_.length + y_.length);
+  blur_ = 0.5 * std::hypot(high.x - low.x, high.y - low.y) + rounding;
+}
+
+Clearance::Cells Clearance::cells() const {
+  Cells cells;
+  cells.steps = steps_.data();
+  cells.columns = static_cast<double>(x_.cells);
+  cells.rows = static_cast<double>(y_.cells);
+  cells.columns_per_length = x_.cells_per_length;
+  cells.rows_per_length = y_.cells_per_length;
+  cells.size = {x_.length, y_.length};
+  cells.period = {x_.periodic ? x_.length : 0.0, y_.periodic ? y_.length : 0.0};
+  cells.shift = shift_;
+  cells.step = step_;
+  cells.blur = blur_;
+  return cells;
 }
 
 }  // namespace carom

@@ -20,13 +20,24 @@ std::int64_t cells_for(double length, double cell, std::size_t obstacles) {
 constexpr std::size_t least_at_rest = 128;
 // Likewise of those that move, whose cells are made for each step.
 constexpr std::size_t least_moving = 16;
-// The cells of what is clear of obstacles at rest: so many an obstacle, each an eighth of their mean spacing long, and
-// so many in all at least and at most, as each has one byte.
-constexpr std::size_t clearance_cells = 64;
-constexpr std::size_t least_clearance_cells = 4096;
-constexpr std::size_t most_clearance_cells = std::size_t{1} << 22;
-// Those of walls that move are as many as their other cells.
+// The cells of how far obstacles are: so many an obstacle, each an eighth of their mean spacing long; so many for
+// each of the squares that the outline of all of them goes along, such that a ninth of a box with long walls is no more
+// than two cells from them; and so many in all at least and at most, as each has one byte.
+constexpr double clearance_cells = 64.0;
+constexpr double clearance_cells_along = 256.0;
+constexpr double least_clearance_cells = 4096.0;
+constexpr double most_clearance_cells = 4194304.0;
+// Those of walls that move in many ways are as many as their other cells.
 constexpr std::size_t swept_cells = 2;
+
+std::size_t clearance_cells_for(const std::vector<Clearance::Shape>& shapes, const Domain& box) {
+  constexpr double pi = 3.14159265358979323846;
+  double outline = 0.0;  // length
+  for (const Clearance::Shape& s : shapes) outline += 2.0 * std::hypot(s.along.x, s.along.y) + 2.0 * pi * s.radius;
+  const double along = clearance_cells_along * (outline / box.width) * (outline / box.height);
+  const double wanted = std::max(clearance_cells * static_cast<double>(shapes.size()), along);
+  return static_cast<std::size_t>(std::clamp(wanted, least_clearance_cells, most_clearance_cells));
+}
 
 }  // namespace
 
@@ -64,7 +75,6 @@ ObstacleGrid::ObstacleGrid(const std::vector<Extent>& extents, const Domain& box
 ObstacleCells::ObstacleCells(const std::vector<Obstacle>& obstacles, std::vector<WallMotion> motions, const Domain& box)
     : obstacles_(obstacles), motions_(std::move(motions)), box_(box) {
   std::vector<ObstacleGrid::Extent> at_rest;
-  std::vector<Clearance::Shape> shapes;
   for (std::uint32_t k = 0; k < obstacles_.size(); ++k) {
     Obstacle& o = obstacles_[k];
     o.moves = o.moves && o.id < motions_.size() && motions_[o.id].moves();
@@ -73,15 +83,35 @@ ObstacleCells::ObstacleCells(const std::vector<Obstacle>& obstacles, std::vector
       moving_.push_back(k);
       continue;
     }
-    shapes.push_back({{o.x, o.y}, {o.dx, o.dy}, o.radius});
     at_rest.push_back({k,
                        {o.x + std::min(o.dx, 0.0) - o.radius, o.y + std::min(o.dy, 0.0) - o.radius},
                        {o.x + std::max(o.dx, 0.0) + o.radius, o.y + std::max(o.dy, 0.0) + o.radius}});
   }
   at_rest_ = ObstacleGrid(at_rest, box, at_rest.empty() ? 1 : least_at_rest);
-  around_at_rest_ =
-      Clearance(box, shapes, std::clamp(clearance_cells * shapes.size(), least_clearance_cells, most_clearance_cells));
+  find_clearances();
   follow(box.clock.from, box.clock.to);
+}
+
+void ObstacleCells::find_clearances() {
+  std::vector<WallMotion> motions;
+  std::vector<std::vector<Clearance::Shape>> shapes;  // of those that move alike
+  for (const Obstacle& o : obstacles_) {
+    const WallMotion motion = o.moves ? motions_[o.id] : WallMotion{};
+    const auto known = std::find(motions.begin(), motions.end(), motion);
+    const auto alike = static_cast<std::size_t>(known - motions.begin());
+    if (known == motions.end()) {
+      motions.push_back(motion);
+      shapes.emplace_back();
+    }
+    shapes[alike].push_back({{o.x, o.y}, {o.dx, o.dy}, o.radius});
+  }
+  const auto ways = std::count_if(motions.begin(), motions.end(), [](const WallMotion& m) { return m.moves(); });
+  moves_in_many_ways_ = static_cast<std::size_t>(ways) > most_motions;
+  for (std::size_t m = 0; m < motions.size(); ++m) {
+    if (moves_in_many_ways_ && motions[m].moves()) continue;
+    around_.push_back({motions[m], Clearance(box_, shapes[m], clearance_cells_for(shapes[m], box_))});
+  }
+  if (moves_in_many_ways_) around_.emplace_back();
 }
 
 void ObstacleCells::follow(double from, double to) {
@@ -99,7 +129,15 @@ void ObstacleCells::follow(double from, double to) {
     swept.push_back({k, extents.back().low, extents.back().high});
   }
   swept_ = ObstacleGrid(swept, box_, least_moving);
-  around_swept_ = Clearance(box_, extents, swept_cells * std::max(least_moving, extents.size()));
+  if (moves_in_many_ways_) {
+    around_.back().clearance = Clearance(box_, extents, swept_cells * std::max(least_moving, extents.size()));
+    return;
+  }
+  for (Around& a : around_) {
+    if (!a.motion.moves()) continue;
+    const WallMotion::Range range = a.motion.range(from, to);
+    a.clearance.displace(range.low, range.high);
+  }
 }
 
 bool ObstacleCells::dissipates() const {

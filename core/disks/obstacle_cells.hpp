@@ -73,7 +73,8 @@ class ObstacleGrid {
 };
 
 // The cells of obstacles at rest are made once; those of walls that move for each step or window anew, of what they
-// sweep over in it: so a wall is found wherever it can be, and its cells are a function of time alone.
+// sweep over in it: so a wall is found wherever it can be, and its cells are a function of time alone. How far places
+// are from walls that move alike is known once and for all where these are at rest.
 class ObstacleCells {
  public:
   // motions: by number of a [[walls]] table.
@@ -85,6 +86,8 @@ class ObstacleCells {
   double cell() const { return moving_.empty() ? at_rest_.cell() : std::min(at_rest_.cell(), swept_.cell()); }
   // Does any of them take energy from disks?
   bool dissipates() const;
+  // Does any of them move?
+  bool move() const { return !moving_.empty(); }
   // Does any of them take disks away?
   bool has_sinks() const { return has_sinks_; }
 
@@ -103,25 +106,38 @@ class ObstacleCells {
   }
   // As in Clearance: no obstacle reaches into the rectangle.
   bool is_clear(Vec2 low, Vec2 high) const {
-    return around_at_rest_.is_clear(low, high) && (moving_.empty() || around_swept_.is_clear(low, high));
+    return std::all_of(around_.begin(), around_.end(),
+                       [&](const Around& a) { return a.clearance.is_clear(low, high); });
   }
-  // All obstacles are so far from this place, along either side, at least; length, negative where it is not known.
+  // All obstacles are so far from this place at least; length, negative where it is not known.
   double clearance(Vec2 place) const {
-    const double at_rest = around_at_rest_.at(place);
-    return moving_.empty() ? at_rest : std::min(at_rest, around_swept_.at(place));
+    double least = HUGE_VAL;
+    for (const Around& a : around_) least = std::min(least, a.clearance.at(place));
+    return least;
   }
-  // What clearance() reads: of those at rest, and of those that move, which has no cells where none does.
-  Clearance::Cells clearance_at_rest() const { return around_at_rest_.cells(); }
-  Clearance::Cells clearance_swept() const { return moving_.empty() ? Clearance::Cells{} : around_swept_.cells(); }
+  // What clearance() reads is in so many maps: one of the obstacles at rest, others of those that move.
+  std::size_t clearances() const { return around_.size(); }
+  Clearance::Cells clearance_cells(std::size_t k) const { return around_[k].clearance.cells(); }
+  // So many at most: walls that move in more than so many ways have one map for all, which is made anew each time.
+  static constexpr std::size_t most_motions = 4;
+  static constexpr std::size_t most_clearances = 1 + most_motions;
 
  private:
+  // Of obstacles that move alike, as this motion says, or are at rest.
+  struct Around {
+    WallMotion motion;
+    Clearance clearance;
+  };
+  void find_clearances();
+
   std::vector<Obstacle> obstacles_;
   std::vector<WallMotion> motions_;
   std::vector<std::uint32_t> moving_;  // obstacles that move
   Domain box_;                         // its size and its periodic sides
   bool has_sinks_ = false;
   ObstacleGrid at_rest_, swept_;
-  Clearance around_at_rest_, around_swept_;
+  std::vector<Around> around_;  // where walls move in too many ways, the last one is of what all of them sweep over
+  bool moves_in_many_ways_ = false;
 };
 
 // The cells for a run's obstacles, where they are at the time of the box, and box.obstacles set to them; null where

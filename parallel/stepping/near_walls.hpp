@@ -21,21 +21,26 @@ struct NearWallsInput {
   double common_radius;
   double width, height;         // of the box
   std::array<double, 4> least;  // as WallReach::least()
-  // Of the obstacles at rest, and of those that move; no cells: none are there.
-  std::array<Clearance::Cells, 2> obstacles;
+  // Of the obstacles: so many maps of how far they are, and whether what they show may have moved.
+  std::array<Clearance::Cells, ObstacleCells::most_clearances> obstacles;
+  std::size_t maps = 0;
+  bool moving = false;
 };
 
 // Of these disks in this box.
 inline NearWallsInput near_walls_input(const Disks& disks, const Domain& box) {
-  NearWallsInput in{disks.x.data(),
-                    disks.y.data(),
-                    disks.radius.empty() ? nullptr : disks.radius.data(),
-                    disks.common_radius,
-                    box.width,
-                    box.height,
-                    WallReach(box).least(),
-                    {}};
-  if (box.obstacles != nullptr) in.obstacles = {box.obstacles->clearance_at_rest(), box.obstacles->clearance_swept()};
+  NearWallsInput in{};
+  in.x = disks.x.data();
+  in.y = disks.y.data();
+  in.radius = disks.radius.empty() ? nullptr : disks.radius.data();
+  in.common_radius = disks.common_radius;
+  in.width = box.width;
+  in.height = box.height;
+  in.least = WallReach(box).least();
+  if (box.obstacles == nullptr) return in;
+  in.maps = box.obstacles->clearances();
+  in.moving = box.obstacles->move();
+  for (std::size_t k = 0; k < in.maps; ++k) in.obstacles[k] = box.obstacles->clearance_cells(k);
   return in;
 }
 

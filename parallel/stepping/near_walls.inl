@@ -8,32 +8,45 @@ namespace carom {
 
 namespace {
 
+inline Doubles least_of(Doubles a, Doubles b) {
+  return a < b ? a : b;
+}
+
+// The column, or row, of Clearance::at(), as a whole number.
+template <bool moving>
+inline FourWords cell_of(Doubles place, double shift, double period, double cells_per_length, double cells) {
+  if constexpr (moving) {
+    place -= all(shift);
+    place += __builtin_bit_cast(Doubles, (place < all(0.0)) & as_longs(all(period)));
+  }
+  // Places beyond the sides look at some cell, for nothing.
+  const Doubles cell = place * all(cells_per_length);
+  const Doubles first = all(0.0);
+  return __builtin_convertvector(least_of(cell > first ? cell : first, all(cells - 1.0)), FourWords);
+}
+
 // Clearance::at(place) < r.
+template <bool moving>
 inline Longs may_touch(const Clearance::Cells& cells, Doubles x, Doubles y, Doubles r) {
-  const Doubles column = x * all(cells.columns_per_length);
-  const Doubles row = y * all(cells.rows_per_length);
-  const Longs in_box =
-      (column >= all(0.0)) & (row >= all(0.0)) & (column < all(cells.columns)) & (row < all(cells.rows));
-  // Others look at cell 0, for nothing.
-  const auto whole = [&](Doubles v) {
-    return __builtin_convertvector(__builtin_bit_cast(Doubles, as_longs(v) & in_box), FourWords);
-  };
+  const Longs in_box = (x >= all(0.0)) & (y >= all(0.0)) & (x < all(cells.size.x)) & (y < all(cells.size.y));
+  const FourWords column = cell_of<moving>(x, cells.shift.x, cells.period.x, cells.columns_per_length, cells.columns);
+  const FourWords row = cell_of<moving>(y, cells.shift.y, cells.period.y, cells.rows_per_length, cells.rows);
   const auto columns = static_cast<std::int32_t>(cells.columns);
-  const FourWords cell = whole(row) * FourWords{columns, columns, columns, columns} + whole(column);
-  const FourWords away{cells.away[cell[0]], cells.away[cell[1]], cells.away[cell[2]], cells.away[cell[3]]};
-  const Doubles around = all(cells.share) * (__builtin_convertvector(away, Doubles) - all(1.0));
-  return ~in_box | (around * all(cells.cell) < r);
+  const FourWords cell = row * FourWords{columns, columns, columns, columns} + column;
+  const FourWords steps{cells.steps[cell[0]], cells.steps[cell[1]], cells.steps[cell[2]], cells.steps[cell[3]]};
+  const Doubles clear = all(cells.step) * __builtin_convertvector(steps, Doubles);
+  return ~in_box | ((moving ? clear - all(cells.blur) : clear) < r);
 }
 
 // WallReach::touches of four disks.
 template <bool obstacles, bool moving>
 inline Longs touches(const NearWallsInput& in, Doubles x, Doubles y, Doubles r) {
-  const Longs wall = ((r - x) >= all(in.least[0])) | ((x + r) - all(in.width) >= all(in.least[1])) |
-                     ((r - y) >= all(in.least[2])) | ((y + r) - all(in.height) >= all(in.least[3]));
-  if constexpr (!obstacles) return wall;
-  const Longs at_rest = wall | may_touch(in.obstacles[0], x, y, r);
-  if constexpr (!moving) return at_rest;
-  return at_rest | may_touch(in.obstacles[1], x, y, r);
+  Longs found = ((r - x) >= all(in.least[0])) | ((x + r) - all(in.width) >= all(in.least[1])) |
+                ((r - y) >= all(in.least[2])) | ((y + r) - all(in.height) >= all(in.least[3]));
+  if constexpr (!obstacles) return found;
+  if constexpr (!moving) return found | may_touch<false>(in.obstacles[0], x, y, r);
+  for (std::size_t k = 0; k < in.maps; ++k) found |= may_touch<true>(in.obstacles[k], x, y, r);
+  return found;
 }
 
 template <bool obstacles, bool moving>
@@ -59,8 +72,8 @@ void near_in_range(const NearWallsInput& input, std::size_t begin, std::size_t e
 }  // namespace
 
 void CAROM_NEAR_WALLS(const NearWallsInput& in, std::size_t begin, std::size_t end, std::vector<std::uint32_t>& near) {
-  if (in.obstacles[0].away == nullptr) return near_in_range<false, false>(in, begin, end, near);
-  if (in.obstacles[1].away == nullptr) return near_in_range<true, false>(in, begin, end, near);
+  if (in.maps == 0) return near_in_range<false, false>(in, begin, end, near);
+  if (!in.moving) return near_in_range<true, false>(in, begin, end, near);
   near_in_range<true, true>(in, begin, end, near);
 }
 

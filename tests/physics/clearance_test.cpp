@@ -110,7 +110,7 @@ INSTANTIATE_TEST_SUITE_P(Sides, Clear, testing::Bool());
 
 TEST(Clearance, OfAnEmptyBoxIsWide) {
   const Clearance clearance(box_of(true), std::vector<Clearance::Shape>{}, cells);
-  EXPECT_TRUE(clearance.is_clear({-30.0, -30.0}, {70.0, 55.0}));
+  EXPECT_TRUE(clearance.is_clear({-5.0, -5.0}, {45.0, 30.0}));
   EXPECT_FALSE(clearance.is_clear({80.0, 10.0}, {81.0, 11.0})) << "its middle is out of the box";
 }
 
