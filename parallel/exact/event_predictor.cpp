@@ -69,14 +69,10 @@ NextEvent EventPredictor::earliest_with_sides(std::uint32_t i) const {
   const FirstContact first = first_contact(i);
   if (first.is_ambiguous()) return earliest_one_by_one(i);
   NextEvent best = earliest_at_sides(i);
-  if (is_obstacle_near(i)) see_obstacles(i, std::min(best.time, first.time), best);
+  if (lists_->is_obstacle_near(i)) see_obstacles(i, std::min(best.time, first.time), best);
   if (!(first.time <= window_->horizon)) return best;
   const NextEvent contact{first.time, Partner::disk(first.neighbour), best.lasting};
   return comes_first(i, contact, best) ? contact : best;
-}
-
-bool EventPredictor::is_obstacle_near(std::uint32_t i) const {
-  return (lists_->rows().row(i).sides & ListRow::obstacle_near) != 0;
 }
 
 // May images that move matter, those above and below a sheared box?
@@ -89,7 +85,7 @@ NextEvent EventPredictor::earliest_one_by_one(std::uint32_t i) const {
   const DiskRecord& own = window_->record[i];
   const ExactRules& rules = window_->rules;
   NextEvent best = earliest_at_sides(i);
-  if (is_obstacle_near(i)) see_obstacles(i, best.time, best);
+  if (lists_->is_obstacle_near(i)) see_obstacles(i, best.time, best);
   // Contacts with images beyond the nearest one are not examined.
   bool lasting = best.lasting || far_;
   lists_->for_each_neighbour(i, [&](std::uint32_t j) {

@@ -69,7 +69,6 @@ class EventPredictor {
   NextEvent earliest_one_by_one(std::uint32_t i) const;
   [[gnu::hot]] NextEvent earliest_at_sides(std::uint32_t i) const;
   void see_obstacles(std::uint32_t i, double end, NextEvent& best) const;
-  bool is_obstacle_near(std::uint32_t i) const;
   bool sees_moving_images(const ListRow& row) const;
   bool comes_first(std::uint32_t i, const NextEvent& a, const NextEvent& b) const;
   static PredictionConstants constants_of(const WindowState& window, const NeighbourLists& lists, bool near_border);

@@ -139,15 +139,25 @@ void NeighbourLists::find_all_others(std::uint32_t i, FoundNeighbours& found) co
   found.count = found.buffer.size();
 }
 
-// While it stays within the skin of its listed position. An obstacle that moves may come anywhere. Precondition: there
-// are obstacles.
+// While it stays within the skin of its listed position, and until the end of the window where obstacles move.
+// Precondition: there are obstacles.
 bool NeighbourLists::may_touch_obstacle(Vec2 listed, double radius) const {
-  if (mode_ == EngineMode::all_pairs || box_.inner_walls_move) return true;
+  if (mode_ == EngineMode::all_pairs) return true;
   const double reach = (radius + skin_) * (1.0 + 1e-6) + std::max(listed_box_.unit.x, listed_box_.unit.y);
   if (box_.obstacles->clearance(listed) >= reach) return false;
+  if (box_.obstacles->move()) return true;
   bool may = false;
   for_each_obstacle_touched(box_, listed.x, listed.y, reach, [&](std::uint32_t, const ObstacleGap&) { may = true; });
   return may;
+}
+
+void NeighbourLists::see_where_walls_move(const Disks& d, const Executor& executor) {
+  executor.for_ranges(rows_.size(), disks_per_block, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) {
+      const bool near = may_touch_obstacle(listed_position(i), d.radius_of(i));
+      rows_.set_sides(i, (rows_.row(i).sides & ~ListRow::obstacle_near) | (near ? ListRow::obstacle_near : 0U));
+    }
+  });
 }
 
 unsigned NeighbourLists::find_other_sides(const Disks& d, std::uint32_t i) const {

@@ -121,6 +121,11 @@ class NeighbourLists {
   void visit_lists(const Executor& executor,
                    const std::function<void(std::size_t, std::span<const std::uint32_t>)>& visit) const;
 
+  // Can the disk touch an obstacle while it stays listed?
+  bool is_obstacle_near(std::uint32_t i) const { return (rows_.row(i).sides & ListRow::obstacle_near) != 0; }
+  // Finds anew what that is where obstacles move: they follow another window.
+  void see_where_walls_move(const Disks& disks, const Executor& executor);
+
   // Prefetches the list of disk i.
   [[gnu::always_inline]] void prefetch(std::uint32_t i) const { rows_.prefetch(i); }
   // A time up to which the disk, now (at time `from`) on this path, stays within the relist distance of its listed

@@ -43,7 +43,7 @@ WindowRun::WindowRun(const Scene& scene, State& state, const Executor& executor,
       executor_(executor),
       times_(times),
       scheduler_(window_, lists_, executor_),
-      predicts_anew_(scene.box.obstacles != nullptr || scene.box.has_sine_side()) {}
+      predicts_anew_(scene.box.has_sine_side()) {}
 
 void WindowRun::set_ghosts(WindowGhosts* ghosts, double largest_radius) {
   ghosts_ = ghosts;
@@ -181,6 +181,7 @@ SliceOutcome WindowRun::run(const WindowPlan& plan, const SpeedSummary& speeds, 
 // From now on lists and times are on their way to the window's end: if it fails, they are not valid.
 void WindowRun::begin(const WindowPlan& plan, const SpeedSummary& speeds, std::size_t disks, double margin) {
   if (scene_.box.shear.acts()) lists_.carry_flow(box_at(scene_.box, plan.start), plan.start);
+  if (scene_.box.inner_walls_move && !rebuilt_) lists_.see_where_walls_move(state_.disks, executor_);
   count_window(plan);
   load_paths(plan, speeds, disks);
   known_at_end_ = std::exchange(known_, Known::nothing);
@@ -270,6 +271,11 @@ void WindowRun::load_disks(std::size_t begin, std::size_t end, const WindowPlan&
     const double valid = (known_until_ - plan.start) - early;
     for (std::size_t i = begin; i < end; ++i) {
       entry[i].time = std::min({entry[i].time, first_relist_time(i, plan), valid});
+    }
+  }
+  if (scene_.box.obstacles != nullptr) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (lists_.is_obstacle_near(static_cast<std::uint32_t>(i))) entry[i].time = 0.0;
     }
   }
   if (!window_.last_contact.empty()) {

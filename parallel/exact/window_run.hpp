@@ -143,8 +143,9 @@ class WindowRun {
   WindowState window_;
   NeighbourLists lists_;
   SliceScheduler scheduler_;
-  // With obstacles, or a side that moves as a sine, how much rounding shifts a contact depends on how it is touched:
-  // there, all events are predicted again at every window's start.
+  // How much rounding shifts a contact with an obstacle, or with a side that moves as a sine, depends on how it is
+  // touched: where there is such a side, all events are predicted again at every window's start, and those of disks
+  // near obstacles elsewhere.
   const bool predicts_anew_;
   WindowGhosts* ghosts_ = nullptr;
   double least_largest_radius_ = 0.0;  // of other ranks' or parts' disks
