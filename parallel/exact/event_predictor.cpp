@@ -152,6 +152,11 @@ PredictionConstants EventPredictor::constants_of(const WindowState& window, cons
   f.blur2 = in_all_lanes(-window.blur * contact_distance * slow_margin);
   f.stay2 = lists.relist_distance(near_border).stay2;
   f.stay = std::sqrt(f.stay2);
+  double period = never;  // the shorter one
+  if (rules.box.periodic_x()) period = std::min(period, rules.box.width);
+  if (rules.box.periodic_y()) period = std::min(period, rules.box.height);
+  if (f.stay < never) f.to_other_image = std::max(period - 2.0 * f.stay, 0.0);
+  f.to_other_image2 = f.to_other_image * f.to_other_image;
   f.eighth_gravity = 0.125 * rules.gravity.size;
   f.half_gravity = {0.5 * rules.gravity.left, 0.5 * rules.gravity.down};
   f.flow = lists.flow();

@@ -280,7 +280,7 @@ template <Scope scope>
 inline bool EventProcessor<scope>::stays_listed(std::uint32_t i, double from, double until,
                                                 const RelistDistance& relist) const {
   const PathSegment& path = record_[i].path;
-  return is_straight_ ? lists_.stays_listed(i, path, until, relist)
+  return is_straight_ ? lists_.stays_listed(i, path, from, until, relist)
                       : lists_.stays_listed_bent(i, path, from, until, window_.rules.gravity, relist);
 }
 
@@ -314,7 +314,7 @@ void EventProcessor<scope>::schedule_no_contact(std::uint32_t i, double from) {
   if (scope == Scope::border || !is_straight_) return schedule_next(i, from, {});
   const PathSegment& path = record_[i].path;
   const double look = window_.last_look(i);
-  if (lists_.stays_listed(i, path, look, relist_distance(i))) return schedule(i, look, Partner::none());
+  if (lists_.stays_listed(i, path, from, look, relist_distance(i))) return schedule(i, look, Partner::none());
   const double relist_at = lists_.relist_time_straight(i, path, std::max(from, path.start), relist_distance(i));
   relist_at < look ? schedule(i, relist_at, Partner::relist()) : schedule(i, look, Partner::none());
 }

@@ -50,12 +50,12 @@ bool NeighbourLists::stays_listed_in_flow(std::uint32_t i, const PathSegment& pa
   if (mode_ == EngineMode::all_pairs) return true;
   const double bend = 0.25 * std::abs(flow_.rate * path.vy) * (until - from) * (until - from);
   const double room = elsewhere_.length * (1.0 - 1e-9) - bend;
-  const auto inside = [&](double t) {
+  const auto at = [&](double t) {
     const double s = t - path.start;
     const double y = path.y + path.vy * s;
-    return is_within(i, flow_.carried_back(path.x + path.vx * s, y, t), y, room * room);
+    return Vec2{flow_.carried_back(path.x + path.vx * s, y, t), y};
   };
-  return room > 0.0 && inside(until) && inside(from);
+  return begins_and_ends_within(room, listed_position(i), at(from), at(until));
 }
 
 double NeighbourLists::earliest_relist_in_flow(std::uint32_t i, const PathSegment& path, double from,

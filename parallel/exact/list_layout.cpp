@@ -25,9 +25,7 @@ double cutoff_in_spacings(double packing_fraction) {
 constexpr double most_crowding_of_many = 8.0;
 // In very dense systems the skin is at least this share of a mean diameter.
 constexpr double least_skin = 0.08;
-// The most, of a period. A path that ends within the skin of its listed position is taken to have stayed there
-// (stays_listed), so it must not come to an image of that place from the one before: a path covers a quarter of a
-// period at most (longest_flight), in the frame of a flow less than 0.7.
+// The most, of a period, so that the nearest image of its listed position is the one that a disk is within the skin of.
 constexpr double most_skin = 0.37;
 constexpr double most_skin_in_flow = 0.15;
 // The least skin in units of listed positions, so that their rounding does not matter.

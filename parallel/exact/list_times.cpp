@@ -32,12 +32,19 @@ bool NeighbourLists::stays_listed_falling(std::uint32_t i, const PathSegment& pa
                                           const Gravity& g, const RelistDistance& relist) const {
   if (mode_ == EngineMode::all_pairs) return true;
   const double room = relist.length * (1.0 - 1e-9) - 0.125 * g.size * (until - from) * (until - from);
-  const auto inside = [&](double t) {
+  const auto at = [&](double t) {
     const double s = t - path.start;
-    return is_within(i, path.x + (path.vx - 0.5 * g.left * s) * s, path.y + (path.vy - 0.5 * g.down * s) * s,
-                     room * room);
+    return Vec2{path.x + (path.vx - 0.5 * g.left * s) * s, path.y + (path.vy - 0.5 * g.down * s) * s};
   };
-  return room > 0.0 && inside(until) && inside(from);
+  return begins_and_ends_within(room, listed_position(i), at(from), at(until));
+}
+
+// The image of the circle that both ends are to be in is the nearest one to the first: the path may go round the box,
+// to another image.
+bool NeighbourLists::begins_and_ends_within(double room, Vec2 centre, Vec2 first, Vec2 last) const {
+  const Vec2 d = listed_box_.nearest_image_of({first.x - centre.x, first.y - centre.y});
+  const Vec2 end{d.x + (last.x - first.x), d.y + (last.y - first.y)};
+  return room > 0.0 && d.x * d.x + d.y * d.y < room * room && end.x * end.x + end.y * end.y < room * room;
 }
 
 // Listed disks are within their contact distance and 4 skins of each other, carried back to the window's start by two

@@ -148,15 +148,14 @@ class NeighbourLists {
   // Does the disk, within the relist distance of its listed position at time `from`, stay so until `until`? May say no
   // where earliest_relist_time would say yes, never the other way round; much faster. Precondition: neither gravity nor
   // a shear acts.
-  [[gnu::always_inline]] bool stays_listed(std::uint32_t i, const PathSegment& path, double until,
+  [[gnu::always_inline]] bool stays_listed(std::uint32_t i, const PathSegment& path, double from, double until,
                                            const RelistDistance& relist) const {
     const double s = until - path.start;
-    const double x = path.x + path.vx * s;
-    const double y = path.y + path.vy * s;
-    if (!rows_.row(i).is_inside()) [[unlikely]]
-      return is_within(i, x, y, relist.stay2);
     const Vec2 listed = listed_position(i);
-    return (x - listed.x) * (x - listed.x) + (y - listed.y) * (y - listed.y) < relist.stay2;
+    Vec2 d{path.x + path.vx * s - listed.x, path.y + path.vy * s - listed.y};
+    if (!rows_.row(i).is_inside()) [[unlikely]]
+      d = offset_until(path, listed, from, until);
+    return d.x * d.x + d.y * d.y < relist.stay2;
   }
   // Likewise where one of them does.
   bool stays_listed_bent(std::uint32_t i, const PathSegment& path, double from, double until, const Gravity& g,
@@ -267,11 +266,19 @@ class NeighbourLists {
     const Vec2 d = listed_box_.nearest_image_of({x - listed.x, y - listed.y});
     return d.x * d.x + d.y * d.y < distance2;
   }
+  // From its listed position to where a straight path has come at time `until`, from the image of that position that
+  // is the nearest one at time `from`: it may have flown round the box meanwhile, to another one.
+  Vec2 offset_until(const PathSegment& path, Vec2 listed, double from, double until) const {
+    const double s = from - path.start;
+    const Vec2 d = listed_box_.nearest_image_of({path.x + path.vx * s - listed.x, path.y + path.vy * s - listed.y});
+    return {d.x + path.vx * (until - from), d.y + path.vy * (until - from)};
+  }
   bool stays_listed_in_flow(std::uint32_t i, const PathSegment& path, double from, double until) const;
   double earliest_relist_in_flow(std::uint32_t i, const PathSegment& path, double from, double until) const;
   Vec2 into_flow(double x, double y, double s) const;
   bool stays_listed_falling(std::uint32_t i, const PathSegment& path, double from, double until, const Gravity& g,
                             const RelistDistance& relist) const;
+  bool begins_and_ends_within(double room, Vec2 centre, Vec2 first, Vec2 last) const;
   void choose_skin(const Disks& disks, const ListLayout& layout, double crowded);
   void sort(Disks& disks, const ListLayout& layout, double crowded, const Executor& executor);
   // In tiles they are stored by size classes.

@@ -46,8 +46,11 @@ struct PredictionConstants {
   LaneConstant never = in_all_lanes(carom::never);
   // All bits but the sign: takes signs off, and is not a number.
   LaneConstant magnitude_bits = in_all_lanes(std::bit_cast<double>(0x7fffffffffffffffULL));
-  double stay2 = never_listed;           // the relist distance squared, a little less; of straight paths
-  double stay = never_listed;            // the relist distance, a little less; of bent ones
+  double stay2 = never_listed;  // the relist distance squared, a little less; of straight paths
+  double stay = never_listed;   // the relist distance, a little less; of bent ones
+  // From one image of its listed position to another a disk flies further than this: a period less twice the relist
+  // distance; length. Squared.
+  double to_other_image = carom::never, to_other_image2 = carom::never;
   double eighth_gravity = 0.0;           // of its size
   AlongAxes half_gravity;                // left and down
   FlowFrame flow;                        // of a sheared box

@@ -301,21 +301,40 @@ template <Bend bend>
   return f.eighth_gravity * (s * s);
 }
 
-// FirstContact::leaving_bit, or 0: as NeighbourLists::stays_listed, but for a rounding; where paths are bent as
-// stays_listed_bent for the whole of it.
+// Less than 0 where a path that takes a time s and goes this way may come round the box from one image of the disk's
+// listed position to another.
+template <Bend bend>
+[[gnu::always_inline]] inline double way_left_round(const PredictionConstants& f, const PathSegment& path, double s,
+                                                    Coordinates way) {
+  const Coordinates way2 = way * way;
+  if constexpr (bend == Bend::none) return f.to_other_image2 - (way2[0] + way2[1]);
+  // Of a part of the path, too.
+  const double straight = f.to_other_image - bent_by<bend>(f, path, s);
+  const double left = straight * straight - (way2[0] + way2[1]);
+  return straight < left ? straight : left;
+}
+
+// FirstContact::leaving_bit, or 0: as NeighbourLists::stays_listed, but for a rounding, and for paths that are so long
+// that they may come to another image of the listed position; where paths are bent as stays_listed_bent for the whole
+// of it.
 template <Bend bend, Images images>
 [[gnu::always_inline]] inline std::uint32_t leaving_bit(const PredictionConstants& f, const PathSegment& path,
                                                         const FixedPointPosition& listed_at, double until) {
   const double s = until - path.start;
   const Coordinates listed = to_doubles(f, listed_at) * load(f.listed_unit);
-  const double end2 = distance2_from_listed<images>(f, place_after<bend>(f, path, s), listed);
+  const Coordinates start = place_after<bend>(f, path, 0.0), end = place_after<bend>(f, path, s);
+  const double end2 = distance2_from_listed<images>(f, end, listed);
   // The sign of what is left.
   double left = f.stay2 - end2;
   if constexpr (bend != Bend::none) {
-    const double start2 = distance2_from_listed<images>(f, place_after<bend>(f, path, 0.0), listed);
+    const double start2 = distance2_from_listed<images>(f, start, listed);
     const double room = f.stay - bent_by<bend>(f, path, s);
     const double inside = room * room - (end2 > start2 ? end2 : start2);
     left = room < inside ? room : inside;
+  }
+  if constexpr (images != Images::none) {
+    const double round = way_left_round<bend>(f, path, s, end - start);
+    left = round < left ? round : left;
   }
 #if defined(__AVX__)
   const auto sign = static_cast<std::uint32_t>(__builtin_ia32_movmskpd(Coordinates{left, left}));

@@ -1,8 +1,9 @@
 // Does the prediction kernel see that a disk leaves its list on a bent path: under gravity, and in the frame that goes
-// with the flow of a sheared box?
+// with the flow of a sheared box; and that it does so round a periodic box, to another image of where it is listed?
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace {
 
 constexpr double radius = 0.3;
 constexpr double unit = 0x1p-29;  // of listed positions; length
+constexpr double period = 8.0;
 
 // A disk that is thrown, and touches its only neighbour after a while. Where it is listed is near its path.
 struct Throw {
@@ -74,16 +76,22 @@ double farthest2(const Throw& t) {
   for (int k = 0; k <= 64; ++k) {
     const Vec2 at = place_after(t, t.until * k / 64);
     const double dx = at.x - t.row.listed_at.x * unit, dy = at.y - t.row.listed_at.y * unit;
-    farthest = std::max(farthest, dx * dx + dy * dy);
+    const double across = dx - t.constants.period.x * std::round(dx / period);
+    const double height = dy - t.constants.period.y * std::round(dy / period);
+    farthest = std::max(farthest, across * across + height * height);
   }
   return farthest;
 }
 
+enum class Way { inside, round };
+
 // The kernel may think that a disk leaves its list that does not, but less often than it sees one stay.
-void expect_seen_on_the_whole_way(Bend bend, const std::vector<Throw>& throws) {
+void expect_seen_on_the_whole_way(Bend bend, const std::vector<Throw>& throws, Way way = Way::inside) {
   for (const PredictionKernels& kernels :
        {choose_prediction_kernels(bend, false), prediction_kernels_baseline(bend, false)}) {
-    for (const RowKernel kernel : {kernels.inside, kernels.inside_newest, kernels.near, kernels.near_newest}) {
+    std::vector<RowKernel> with_images{kernels.near, kernels.near_newest};
+    if (way == Way::inside) with_images.insert(with_images.end(), {kernels.inside, kernels.inside_newest});
+    for (const RowKernel kernel : with_images) {
       int stays = 0;
       int thinks_it_leaves = 0;
       for (const Throw& t : throws) {
@@ -113,6 +121,36 @@ TEST(BentPaths, AreSeenToLeaveTheListUnderGravity) {
       throws.push_back(drawn_throw(draws, {strength * direction.left, strength * direction.down}, {}));
     }
     expect_seen_on_the_whole_way(bend_of(direction, Domain{}), throws);
+  }
+}
+
+// Half of them come back to another image, on which they end.
+std::vector<Throw> throws_round_the_box(const Gravity& direction) {
+  test::Draws draws(39);
+  std::vector<Throw> throws;
+  for (int round = 0; round < 3000; ++round) {
+    const double strength = draws.in(0.0, 1.0);
+    Throw t = drawn_throw(draws, {strength * direction.left, strength * direction.down}, {});
+    PredictionConstants& f = t.constants;
+    f.period = {period, period};
+    f.periods_per_length = {1.0 / period, 1.0 / period};
+    f.period_x = f.period_y = in_all_lanes(period);
+    f.periods_per_x = f.periods_per_y = in_all_lanes(1.0 / period);
+    f.to_other_image = period - 2.0 * f.stay;
+    f.to_other_image2 = f.to_other_image * f.to_other_image;
+    if (round % 2 == 0) {
+      const double faster = (round % 4 == 0 ? period : -period) / t.until;
+      for (DiskRecord& disk : t.record) (round % 8 < 4 ? disk.path.vx : disk.path.vy) += faster;
+    }
+    throws.push_back(t);
+  }
+  return throws;
+}
+
+TEST(BentPaths, AreSeenToLeaveTheListRoundTheBox) {
+  for (const Gravity& direction : {Gravity(0.7), Gravity(-0.3, -0.6)}) {
+    const Bend bend = bend_of(direction, Domain{});
+    expect_seen_on_the_whole_way(bend, throws_round_the_box(direction), Way::round);
   }
 }
 
