@@ -20,9 +20,6 @@ namespace {
 // A run of more steps than this is refused: it would take days for a hundred disks.
 constexpr double most_steps_offered = 1e9;
 
-// Some disk is this much faster than the root mean square of one component: sqrt(2 ln N) for N up to 10^6.
-constexpr double fastest_share = 5.3;
-
 // To two digits, whatever the locale of the host program, which strtod would go by.
 double two_digits(double number) {
   const std::string text = fmt::format("{:.1e}", number);
@@ -62,8 +59,7 @@ double exact_collision_seconds(const SceneScales& s) {
 
 // The longest step in which no disk moves further than it safely may.
 double safe_step(const SceneScales& s) {
-  return s.speed > 0.0 ? safe_travel * s.smallest_radius / (fastest_share * s.speed)
-                       : std::numeric_limits<double>::infinity();
+  return s.fastest > 0.0 ? safe_travel * s.smallest_radius / s.fastest : std::numeric_limits<double>::infinity();
 }
 
 std::string steps_text(double t_end, double dt) {

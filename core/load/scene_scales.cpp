@@ -15,20 +15,34 @@ namespace {
 // The density at which disks of a settling scene meet, when they have come down.
 constexpr double settled_fraction = 0.6;
 
-// Mean of v_x^2 that a law gives disks of mean mass m.
-double mean_square_speed(const VelocityLaw& law, double mass) {
+// The velocities that a law gives disks: the means of v_x^2 and of m v_x^2, and the speed of the fastest.
+struct LawSpeeds {
+  double square = 0.0, temperature = 0.0, fastest = 0.0;
+};
+
+// Of disks with these mean masses.
+LawSpeeds speeds_of(const VelocityLaw& law, double mean_mass, double mean_inverse_mass, double lightest) {
   switch (law.kind) {
     case VelocityLaw::Kind::maxwell:
-      return law.temperature / mass;
-    case VelocityLaw::Kind::uniform:
-      return law.limit * law.limit / 3.0;
+      return {law.temperature * mean_inverse_mass, law.temperature,
+              fastest_share * std::sqrt(law.temperature / lightest)};
+    case VelocityLaw::Kind::uniform: {
+      const double square = law.limit * law.limit / 3.0;
+      return {square, mean_mass * square, std::numbers::sqrt2 * law.limit};
+    }
     case VelocityLaw::Kind::list: {
-      double sum = 0.0;
-      for (const Vec2& v : law.list) sum += 0.5 * (v.x * v.x + v.y * v.y);
-      return law.list.empty() ? 0.0 : sum / static_cast<double>(law.list.size());
+      if (law.list.empty()) return {};
+      double sum = 0.0, most = 0.0;
+      for (const Vec2& v : law.list) {
+        const double square = v.x * v.x + v.y * v.y;
+        sum += 0.5 * square;
+        most = std::max(most, square);
+      }
+      const double mean = sum / static_cast<double>(law.list.size());
+      return {mean, mean_mass * mean, std::sqrt(most)};
     }
     default:
-      return 0.0;
+      return {};
   }
 }
 
@@ -49,49 +63,60 @@ struct Tally {
   double inverse_mass = 0.0;  // sum of 1 / m
   double smallest = std::numeric_limits<double>::infinity();  // radius
   double lightest = std::numeric_limits<double>::infinity();  // mass
+  double fastest = 0.0;                                       // speed of a disk at the start
 
-  void add(double count, double sum_radius2, double smallest_radius, double mass, double mean_speed2,
-           double spin_energy) {
+  // The sums of so many disks, of these sizes; drift: a velocity that all of them have on top.
+  void add(double count, const SizeSummary& sizes, const VelocityLaw& law, Vec2 drift, const Scene& scene,
+           const SpinLaw& spins) {
     if (!(count > 0.0)) return;
-    temperature += count * (mass * mean_speed2 + spin_energy / 3.0);
-    inverse_mass += count / mass;
-    lightest = std::min(lightest, mass);
+    const double mean_mass = sizes.mass / count;
+    const LawSpeeds speeds = speeds_of(law, mean_mass, sizes.inverse_mass / count, sizes.smallest.mass);
+    const double drift2 = drift.x * drift.x + drift.y * drift.y;
+    const double spin_energy = mean_spin_energy(scene, spins, mean_mass, sizes.largest.radius);
+    temperature += count * (speeds.temperature + 0.5 * mean_mass * drift2 + spin_energy / 3.0);
+    inverse_mass += sizes.inverse_mass;
+    lightest = std::min(lightest, sizes.smallest.mass);
     disks += count;
-    radius2 += sum_radius2;
-    speed2 += count * mean_speed2;
-    smallest = std::min(smallest, smallest_radius);
+    radius2 += sizes.radius_squared;
+    speed2 += count * (speeds.square + 0.5 * drift2);
+    smallest = std::min(smallest, sizes.smallest.radius);
+    fastest = std::max(fastest, speeds.fastest + std::sqrt(drift2));
   }
 };
 
-// The least and the largest mass stand for all.
-double middle(double low, double high) {
-  return 0.5 * (low + high);
+// The sizes of so many disks of a source, by those of the first thousand.
+SizeSummary sizes_of(const Source& source, double count, std::uint64_t seed) {
+  constexpr double most_draws = 1000.0;
+  SizeSummary sum;
+  const auto draws = static_cast<Count>(std::ceil(std::min(count, most_draws)));
+  for (Count k = 0; k < draws; ++k) {
+    const DiskSize size = draw_size(source.radius, source.mass, seed, Stream::source_radius, Stream::source_mass,
+                                    static_cast<DiskId>(k), k);
+    const double share = count / static_cast<double>(draws);
+    if (k == 0) sum.smallest = sum.largest = size;
+    sum.smallest = {std::min(sum.smallest.radius, size.radius), std::min(sum.smallest.mass, size.mass)};
+    sum.largest = {std::max(sum.largest.radius, size.radius), std::max(sum.largest.mass, size.mass)};
+    sum.radius_squared += share * size.radius * size.radius;
+    sum.mass += share * size.mass;
+    sum.inverse_mass += share / size.mass;
+  }
+  return sum;
 }
 
 Tally tally_of(const Scene& scene) {
   Tally tally;
   DiskId first_id = 0;
   for (const DiskGroup& group : scene.groups) {
-    if (group.fixed) {
-      first_id += static_cast<DiskId>(group.count);
-      continue;
+    if (!group.fixed) {
+      tally.add(static_cast<double>(group.count), summarise_sizes(group, scene.seed, first_id), group.velocities,
+                group.drift, scene, group.spins);
     }
-    const SizeSummary sizes = summarise_sizes(group, scene.seed, first_id);
-    const double mass = middle(sizes.smallest.mass, sizes.largest.mass);
-    const double drift2 = 0.5 * (group.drift.x * group.drift.x + group.drift.y * group.drift.y);
-    const double speed2 = group.count > 0 ? mean_square_speed(group.velocities, mass) + drift2 : 0.0;
-    const double spin_energy = mean_spin_energy(scene, group.spins, mass, sizes.largest.radius);
-    tally.add(static_cast<double>(group.count), sizes.radius_squared, sizes.smallest.radius, mass, speed2, spin_energy);
     first_id += static_cast<DiskId>(group.count);
   }
   for (const Source& source : scene.sources) {
     double count = source.rate * scene.run.t_end;
     if (source.limit) count = std::min(count, static_cast<double>(*source.limit));
-    const DiskSize size =
-        draw_size(source.radius, source.mass, scene.seed, Stream::source_radius, Stream::source_mass, 0, 0);
-    tally.add(count, count * size.radius * size.radius, size.radius, size.mass,
-              mean_square_speed(source.velocities, size.mass),
-              mean_spin_energy(scene, source.spins, size.mass, size.radius));
+    tally.add(count, sizes_of(source, count, scene.seed), source.velocities, {}, scene, source.spins);
   }
   return tally;
 }
@@ -195,7 +220,13 @@ SceneScales scales_of(const Scene& scene) {
   const double speed2 = thermal2 + 4.0 * drive.speed * drive.speed;
   // A disk falls through half the box in the mean: v^2 = g H, of which half for each component.
   const Gravity& g = scene.physics.gravity;
-  s.speed = std::sqrt(speed2 + 0.5 * (std::abs(g.down) * scene.box.height + std::abs(g.left) * scene.box.width));
+  const double fall2 = std::abs(g.down) * scene.box.height + std::abs(g.left) * scene.box.width;
+  s.speed = std::sqrt(speed2 + 0.5 * fall2);
+  // A disk of the lightest mass may be faster than fastest_share of what all have in the mean, one that a scene lists
+  // at a speed of its own, too.
+  const double hottest = std::max(tally.temperature / tally.disks, hottest_bath(scene));
+  const double fast = std::max(tally.fastest, fastest_share * std::sqrt(hottest / tally.lightest));
+  s.fastest = std::max(fastest_share * s.speed, std::sqrt(fast * fast + fall2) + 2.0 * drive.speed);
   const double eta = s.settles ? std::max(settled_fraction, s.packing_fraction) : s.packing_fraction;
   s.collision_rate =
       s.disks > 1.0 ? 4.0 * (compressibility(eta) - 1.0) * s.speed / (std::sqrt(std::numbers::pi) * s.diameter) : 0.0;

@@ -5,6 +5,9 @@
 
 namespace carom {
 
+// Some disk is this much faster than the root mean square of one component: sqrt(2 ln N) for N up to 10^6.
+inline constexpr double fastest_share = 5.3;
+
 // Estimated from the scene alone: the same for every run and machine. What the choice of a method rests on.
 struct SceneScales {
   double disks = 0.0;            // sources included, all that they may emit
@@ -14,6 +17,7 @@ struct SceneScales {
   // Root mean square of one component, with what gravity adds while falling, walls that move give to disks at rest, and
   // rough disks get from their spins.
   double speed = 0.0;
+  double fastest = 0.0;         // speed that hardly any disk goes beyond, of the lightest and of those that start so
   double vibration = 0.0;       // largest angular frequency of a wall that vibrates; 1 / time
   double collision_rate = 0.0;  // of a disk, per unit time: 4 (Z - 1) speed / (sqrt(pi) diameter)
   double restitution = 1.0;     // the least of two disks of any groups, at speeds where its law takes most

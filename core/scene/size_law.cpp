@@ -98,8 +98,10 @@ SizeSummary summarise_sizes(const DiskGroup& group, std::uint64_t seed, DiskId f
   };
   sum.smallest = sum.largest = size_at(0);
   if (same_for_all(group.radius, group.mass)) {
-    const double r = sum.smallest.radius;
-    sum.radius_squared = static_cast<double>(group.count) * (r * r);
+    const double r = sum.smallest.radius, count = static_cast<double>(group.count);
+    sum.radius_squared = count * (r * r);
+    sum.mass = count * sum.smallest.mass;
+    sum.inverse_mass = count / sum.smallest.mass;
     return sum;
   }
   for (Count k = 0; k < group.count; ++k) {
@@ -109,6 +111,8 @@ SizeSummary summarise_sizes(const DiskGroup& group, std::uint64_t seed, DiskId f
     sum.smallest.mass = std::min(sum.smallest.mass, size.mass);
     sum.largest.mass = std::max(sum.largest.mass, size.mass);
     sum.radius_squared += size.radius * size.radius;
+    sum.mass += size.mass;
+    sum.inverse_mass += 1.0 / size.mass;
   }
   return sum;
 }

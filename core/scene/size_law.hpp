@@ -28,8 +28,9 @@ bool same_for_all(const SizeLaw& radius, const SizeLaw& mass);
 
 // What a group's sizes amount to, without storing them.
 struct SizeSummary {
-  DiskSize smallest, largest;   // smallest and largest radius and mass, each by itself; 0 for an empty group
-  double radius_squared = 0.0;  // sum of r^2, in id order
+  DiskSize smallest, largest;             // smallest and largest radius and mass, each by itself; 0 for an empty group
+  double radius_squared = 0.0;            // sum of r^2, in id order
+  double mass = 0.0, inverse_mass = 0.0;  // sums of m and of 1 / m, likewise; a fixed disk's are without meaning
 };
 SizeSummary summarise_sizes(const DiskGroup& group, std::uint64_t seed, DiskId first_id);
 

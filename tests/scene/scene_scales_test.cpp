@@ -44,6 +44,36 @@ TEST(SceneScales, LightDisksBecomeFast) {
   EXPECT_NEAR(speed(turning, turning, rough), std::sqrt(50.0 / 3.0), 1e-12);
 }
 
+// Maxwell's speeds are those of each disk's own mass: of two masses, half of each, T / m on average. The fastest are
+// the light ones, or one that the scene lists as fast.
+TEST(SceneScales, DrawnMassesHaveEachItsSpeed) {
+  const auto scales = [](const std::string& disks) {
+    return scales_of(scene_from("[box]\nwidth = 80.0\nheight = 80.0\n[[disks]]\npositions = \"random\"\n" + disks +
+                                "[run]\nt_end = 1.0\n"));
+  };
+  const std::string many = "radius = 0.1\ncount = 2000\nvelocities = { maxwell = 2.0 }\n";
+  const SceneScales two = scales(many + "mass = { choice = [1.0, 10000.0] }\n");
+  EXPECT_NEAR(two.speed, std::sqrt(2.0 * 0.5 * (1.0 + 1e-4)), 0.05) << "as many of each as were drawn";
+  EXPECT_NEAR(two.fastest, fastest_share * std::sqrt(2.0), 0.05);
+  const SceneScales few = scales(many + "mass = { choice = [1.0, 10000.0], weights = [1.0, 100.0] }\n");
+  EXPECT_LT(few.speed, 0.3);
+  EXPECT_GE(few.fastest, fastest_share * std::sqrt(2.0));
+  const std::string one =
+      "[[disks]]\npositions = [[40.0, 40.0]]\nradius = 0.1\nmass = 1.0\nvelocities = [[0.0, 90.0]]\n";
+  EXPECT_GE(scales(many + "mass = 1.0\n" + one + "count = 1\n").fastest, 90.0);
+}
+
+// Of the disks that a source draws, not of its first alone.
+TEST(SceneScales, SourcesHaveAllSizesThatTheyDraw) {
+  const SceneScales s =
+      scales_of(scene_from("[box]\nwidth = 80.0\nheight = 80.0\n[[sources]]\nside = \"left\"\n"
+                           "rate = 500.0\nradius = { uniform = [0.1, 0.5] }\n"
+                           "mass = { from_radius = 1.0 }\nvelocities = { uniform = 1.0 }\n"
+                           "[run]\nt_end = 1.0\n"));
+  EXPECT_LT(s.smallest_radius, 0.11);
+  EXPECT_NEAR(s.diameter, 2.0 * std::sqrt((0.5 * 0.5 * 0.5 - 0.1 * 0.1 * 0.1) / (3.0 * 0.4)), 0.02);
+}
+
 // Z of docs/reference_values.md.
 TEST(SceneScales, CompressibilityIsThatOfTheVirialSeries) {
   EXPECT_DOUBLE_EQ(compressibility(0.0), 1.0);
