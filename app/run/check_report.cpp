@@ -210,8 +210,9 @@ std::string choice_text(const Scene& scene, double accuracy) {
   if (choice.best < 0) return text + "  out of reach: ask for a larger error, or name a method and its dt\n";
   const MethodOffer& best = choice.offers[static_cast<std::size_t>(choice.best)];
   const std::string dt = best.dt > 0.0 ? fmt::format(" --dt {:g}", best.dt) : "";
-  return text + fmt::format("  take it with --method {}{}, or method = \"auto\", accuracy = {:g} in [run]\n",
-                            name_of(best.method), dt, accuracy);
+  const std::string automatic =
+      scene.box.shear.acts() ? "" : fmt::format(", or method = \"auto\", accuracy = {:g} in [run]", accuracy);
+  return text + fmt::format("  take it with --method {}{}{}\n", name_of(best.method), dt, automatic);
 }
 
 Json choice_json(const Scene& scene, double accuracy) {

@@ -47,14 +47,25 @@ struct ErrorLaw {
 };
 
 ErrorLaw pairwise_law(const SceneScales& s) {
-  const double gamma = s.collision_rate;
+  const double gamma = s.collision_rate + s.wall_rate;
   const double grazing = s.diameter > 0.0 ? 0.5 * s.speed / s.diameter : 0.0;
-  return {(rates::second_collision + rates::stopped_in_crowd * s.stopping) * gamma,
+  return {rates::second_collision * gamma + rates::stopped_in_crowd * s.stopping * s.collision_rate,
           rates::crowding * gamma * gamma + grazing * grazing + s.vibration * s.vibration};
 }
 
 double exact_collision_seconds(const SceneScales& s) {
   return rates::exact_collision + rates::exact_flight / std::max(s.packing_fraction, 0.01);
+}
+
+// Of two disks, and of one with walls or fixed disks, in the whole run.
+double collisions_in(double t_end, const SceneScales& s) {
+  return s.disks * (0.5 * s.collision_rate + s.wall_rate) * t_end;
+}
+
+// Is there anything in the box that every step looks for?
+bool has_obstacles(const Scene& scene) {
+  const auto is_peg = [](const DiskGroup& group) { return group.fixed && group.count > 0; };
+  return !scene.walls.empty() || std::any_of(scene.groups.begin(), scene.groups.end(), is_peg);
 }
 
 // The longest step in which no disk moves further than it safely may.
@@ -90,22 +101,22 @@ MethodOffer offer_pairwise(const Scene& scene, const SceneScales& s, double accu
   offer.dt = tidy(std::min({wanted, safe, scene.run.t_end > 0.0 ? scene.run.t_end : 1.0}));
   offer.error = law.at(offer.dt);
   const double steps = std::max(1.0, scene.run.t_end / offer.dt);
-  const double collisions = 0.5 * s.disks * s.collision_rate * scene.run.t_end;
-  const double step = rates::pairwise_step + rates::pile_step * share_in_pile(scene, s);
-  offer.seconds = step * s.disks * steps + rates::pairwise_collision * collisions;
+  const double step = rates::pairwise_step + rates::pile_step * share_in_pile(scene, s) +
+                      (has_obstacles(scene) ? rates::obstacle_step : 0.0);
+  offer.seconds = step * s.disks * steps + rates::pairwise_collision * collisions_in(scene.run.t_end, s);
   offer.possible = steps <= most_steps_offered;
   offer.why = !offer.possible ? steps_text(scene.run.t_end, offer.dt)
               : safe < wanted
                   ? (safe == kicks ? std::string("dt is the time between two kicks of the thermostat")
                                    : std::string("dt is the longest in which no disk moves half its radius"))
-                  : fmt::format("{:.2g} collisions of a disk in a step", s.collision_rate * offer.dt);
+                  : fmt::format("{:.2g} collisions of a disk in a step", (s.collision_rate + s.wall_rate) * offer.dt);
   return offer;
 }
 
 MethodOffer offer_exact(const Scene& scene, const SceneScales& s, double accuracy) {
   MethodOffer offer;
   offer.method = Method::exact;
-  double collisions = 0.5 * s.disks * s.collision_rate * scene.run.t_end;
+  double collisions = collisions_in(scene.run.t_end, s);
   offer.possible = true;
   offer.why = "pays for each collision, not for time";
   const std::optional<double> tc = scene.physics.collapse_contact_time;
@@ -131,6 +142,13 @@ void leave_driven_to_exact(const SceneScales& s, MethodOffer& pairwise, const Me
   if (!s.driven || s.may_collapse || !exact.possible || exact.error > 0.0 || !pairwise.possible) return;
   pairwise.possible = false;
   pairwise.why = "how fast walls that move make the disks, and so which step is short, is not known before";
+}
+
+// What images that move do to the error of a step is not known; exact has none.
+void leave_shear_to_exact(const Scene& scene, MethodOffer& pairwise) {
+  if (!scene.box.shear.acts() || !pairwise.possible) return;
+  pairwise.possible = false;
+  pairwise.why = "its errors beside box.shear_rate are not known";
 }
 
 // Brownian motion: both methods draw a displacement each dt, and both are wrong by it.
@@ -200,6 +218,7 @@ MethodChoice choose_method(const Scene& scene, double accuracy) {
     choice.offers.push_back(offer_pairwise(scene, choice.scales, accuracy));
     choice.offers.push_back(offer_exact(scene, choice.scales, accuracy));
     leave_driven_to_exact(choice.scales, choice.offers[0], choice.offers[1]);
+    leave_shear_to_exact(scene, choice.offers[0]);
   }
   pick_best(choice);
   choice.why = reason_of(choice);

@@ -194,6 +194,46 @@ bool may_collapse(const Scene& scene, double disks) {
   return e < 1.0 && disks > std::log(4.0 / (1.0 - e)) / (1.0 - e);
 }
 
+// What stands in the way of a disk's centre: the length of it all, and the area that is left.
+struct Confinement {
+  double length = 0.0, area = 0.0;
+};
+
+Confinement confinement(const Scene& scene, double diameter) {
+  constexpr double least_share = 1e-3;  // of a diameter, where disks fit in hardly or pass in places alone
+  const Domain& box = scene.box;
+  const auto walls = [&](Side a, Side b) {
+    return static_cast<double>(box.side(a) == SideKind::wall) + static_cast<double>(box.side(b) == SideKind::wall);
+  };
+  const double least = least_share * diameter;
+  const double width = std::max(least, box.width - 0.5 * diameter * walls(Side::left, Side::right));
+  const double height = std::max(least, box.height - 0.5 * diameter * walls(Side::bottom, Side::top));
+  Confinement c{walls(Side::left, Side::right) * height + walls(Side::bottom, Side::top) * width, width * height};
+  double taken = 0.0;
+  DiskId first_id = 0;
+  for (const DiskGroup& group : scene.groups) {
+    if (group.fixed) {
+      const double count = static_cast<double>(group.count);
+      const double square = summarise_sizes(group, scene.seed, first_id).radius_squared;
+      const double reach = count > 0.0 ? std::sqrt(square / count) + 0.5 * diameter : 0.0;
+      c.length += count * 2.0 * std::numbers::pi * reach;
+      taken += count * std::numbers::pi * reach * reach;
+    }
+    first_id += static_cast<DiskId>(group.count);
+  }
+  for (const InnerWall& wall : scene.walls) {
+    for (std::size_t k = 1; k < wall.points.size() && !wall.sink; ++k) {
+      const double length =
+          std::hypot(wall.points[k].x - wall.points[k - 1].x, wall.points[k].y - wall.points[k - 1].y);
+      c.length += 2.0 * length;
+      taken += length * diameter;
+    }
+  }
+  constexpr double least_left = 0.05;  // where fixed disks and walls overlap
+  c.area *= std::max(least_left, 1.0 - taken / c.area);
+  return c;
+}
+
 }  // namespace
 
 double compressibility(double eta) {
@@ -230,6 +270,8 @@ SceneScales scales_of(const Scene& scene) {
   const double eta = s.settles ? std::max(settled_fraction, s.packing_fraction) : s.packing_fraction;
   s.collision_rate =
       s.disks > 1.0 ? 4.0 * (compressibility(eta) - 1.0) * s.speed / (std::sqrt(std::numbers::pi) * s.diameter) : 0.0;
+  const Confinement around = confinement(scene, s.diameter);
+  s.wall_rate = s.speed * around.length / (std::sqrt(2.0 * std::numbers::pi) * around.area);
   s.may_collapse = may_collapse(scene, s.disks);
   s.restitution = least_restitution(scene);
   s.stopping = s.settles && s.restitution < 1.0 ? 1.0 / (1.0 - s.restitution * s.restitution) : 0.0;

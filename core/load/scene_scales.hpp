@@ -20,7 +20,10 @@ struct SceneScales {
   double fastest = 0.0;         // speed that hardly any disk goes beyond, of the lightest and of those that start so
   double vibration = 0.0;       // largest angular frequency of a wall that vibrates; 1 / time
   double collision_rate = 0.0;  // of a disk, per unit time: 4 (Z - 1) speed / (sqrt(pi) diameter)
-  double restitution = 1.0;     // the least of two disks of any groups, at speeds where its law takes most
+  // Of a disk with sides, inner walls and fixed disks, per unit time: speed / sqrt(2 pi) times their length as the
+  // disk's centre meets it, over the area that is left to centres.
+  double wall_rate = 0.0;
+  double restitution = 1.0;   // the least of two disks of any groups, at speeds where its law takes most
   double stopping = 0.0;      // where disks settle: what one loses that is stopped, over what a collision takes from it
   bool settles = false;       // gravity presses and contacts dissipate: in the end a pile
   bool driven = false;        // by walls that move: how fast disks become is known from a run alone
