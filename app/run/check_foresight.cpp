@@ -193,6 +193,13 @@ bool uses_dt(const Scene& scene) {
   return scene.run.method != Method::exact || scene.physics.diffusion > 0.0;
 }
 
+double StepTrial::seconds_to(double t_end) const {
+  if (!(t_end > 0.0)) return 0.0;
+  if (!(end > 0.0)) return infinity;
+  if (!(end > first_end)) return seconds * t_end / end;
+  return first_seconds + (seconds - first_seconds) * (t_end - first_end) / (end - first_end);
+}
+
 double StepForesight::safe() const {
   return std::min({at_start, later, resting});
 }

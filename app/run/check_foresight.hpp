@@ -31,6 +31,14 @@ struct CollapseForesight {
   std::optional<double> from;  // simulated time, where it can be predicted
 };
 
+// A trial of the first steps. The first one makes lists and takes memory, eight times what others take of 10^6 disks
+// with exact: what a run goes on with are the others.
+struct StepTrial {
+  double first_seconds = 0.0, first_end = 0.0;  // of the first step: wall time, and the simulated time at its end
+  double seconds = 0.0, end = 0.0;              // of all of them
+  double seconds_to(double t_end) const;        // of all steps to there; infinite where the trial came nowhere
+};
+
 StepForesight foresee_steps(const Scene& scene, const Disks& start);
 Population foresee_population(const Scene& scene, const Disks& start);
 CollapseForesight foresee_collapse(const Scene& scene, const Disks& start);

@@ -284,7 +284,8 @@ const JsonKey<Told> check_keys[] = {
      [](const Told& t) -> Json { return json_number(t.found.steps.landing_speed); }},
     {"t_end", "time", "the end of the run", [](const Told& t) -> Json { return t.scene.run.t_end; }},
     {"frames", "", "frames that a run makes", [](const Told& t) -> Json { return t.found.outputs.frames; }},
-    {"memory_bytes", "bytes", "of a run", [](const Told& t) -> Json { return t.found.memory_bytes; }},
+    {"memory_bytes", "bytes", "of a run, with ffmpeg's for its movie",
+     [](const Told& t) -> Json { return t.found.memory_bytes; }},
     {"cost_s", "s", "wall time of a run on this machine, null if unknown",
      [](const Told& t) -> Json { return json_number(t.found.seconds()); }},
     {"cost_parts_s", "s", "an object: the same in parts, `start`, `steps`, `frames`, `analysis`, `plots`",
@@ -312,6 +313,16 @@ const JsonKey<Told> check_keys[] = {
      [](const Told& t) -> Json { return t.accuracy ? choice_json(t.scene, *t.accuracy) : absent(); }},
 };
 
+// tried: were steps, and outputs?
+std::string memory_text(const Findings& f, bool tried) {
+  const std::string bytes = short_number(f.memory_bytes);
+  if (!tried) return fmt::format("at least {}B", bytes);
+  const bool sources = f.population.end > f.population.start;
+  const double movie = f.outputs.ffmpeg_bytes;
+  return fmt::format("about {}B, as measured{}{}", bytes, sources ? ", with what sources add" : "",
+                     movie > 0.0 ? fmt::format(", {}B of it for ffmpeg", short_number(movie)) : "");
+}
+
 std::string main_text(const Scene& scene, const Findings& f) {
   std::string text =
       fmt::format("{}: {}\n", one_line(scene.file), scene.title.empty() ? "a scene" : one_line(scene.title));
@@ -331,10 +342,7 @@ std::string main_text(const Scene& scene, const Findings& f) {
     line("growth",
          fmt::format("about {} of one core before the first step, not tried", duration_text(f.growth_seconds)));
   }
-  line("memory", fmt::format("{} {}B{}", tried ? "about" : "at least", short_number(f.memory_bytes),
-                             !tried                                  ? ""
-                             : f.population.end > f.population.start ? ", as measured, with what sources add"
-                                                                     : ", as measured"));
+  line("memory", memory_text(f, tried));
   if (f.ranks) line("ranks", ranks_text(*f.ranks));
   line("cost", tried ? cost_text(scene, f) : "not tried either");
   for (const std::string& trouble : f.troubles) line("trouble", trouble);

@@ -64,6 +64,13 @@ State ungrown_state(const Scene& scene) {
   return initial_state(scene, nowhere, nothing);
 }
 
+// The most memory that this process has had so far.
+double peak_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
 // Takes the memory that a run takes besides its steps: a copy of the disks for its frames, their order for sums, and a
 // search for the largest overlap at the end.
 void look_as_a_run_does(const Engine& engine, const Scene& scene) {
@@ -98,31 +105,35 @@ double share_left(const Engine& engine, const Scene& scene, const Population& po
   return std::sqrt(-std::expm1(-losses) / losses);
 }
 
-// Runs the first steps, and extrapolates.
-void try_steps(Engine& engine, const Scene& scene, Findings& f) {
+// Makes the first steps, for trial_seconds after the first.
+StepTrial time_steps(Engine& engine, double t_end, std::string& stopped) {
   const auto start = WallClock::now();
   engine.set_watch([&] { return seconds_since(start) < longest_trial; });
-  double seconds = 0.0;
+  StepTrial trial;
   try {
-    while (engine.state().time < scene.run.t_end && seconds < trial_seconds) {
+    while (engine.state().time < t_end && trial.seconds < trial.first_seconds + trial_seconds) {
       engine.step();
-      seconds = seconds_since(start);
+      trial.seconds = seconds_since(start);
+      trial.end = engine.state().time;
+      if (trial.first_end > 0.0) continue;
+      trial.first_seconds = trial.seconds;
+      trial.first_end = trial.end;
     }
   } catch (const PhysicsError& error) {
-    f.stopped = error.what();
+    stopped = error.what();
   }
   engine.set_watch({});
-  const double time = engine.state().time;
-  if (scene.run.t_end > 0.0) {
-    f.step_seconds = time > 0.0 ? seconds * scene.run.t_end / time : std::numeric_limits<double>::infinity();
-  }
+  return trial;
+}
+
+// Runs the first steps, and extrapolates.
+void try_steps(Engine& engine, const Scene& scene, Findings& f) {
+  f.step_seconds = time_steps(engine, scene.run.t_end, f.stopped).seconds_to(scene.run.t_end);
   const double share = share_left(engine, scene, f.population);
-  if (time < scene.run.t_end) f.step_seconds *= share;
+  if (engine.state().time < scene.run.t_end) f.step_seconds *= share;
   f.population.mean *= share;
   look_as_a_run_does(engine, scene);
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  f.memory_bytes = 1024.0 * static_cast<double>(usage.ru_maxrss);
+  f.memory_bytes = peak_bytes();
   if (f.population.end > f.population.start) {
     f.step_seconds = seconds_with_sources(scene, f.population, f.step_seconds);
     f.memory_bytes += least_memory(scene.run.method, static_cast<Count>(f.population.end - f.population.start),
@@ -143,7 +154,9 @@ void try_run(const Scene& scene, const EngineChoice& choice, State initial, Find
   within_memory(scene, [&] {
     try_steps(*engine, scene, found);
     for (const std::string& trouble : waiting_in_trial(scene, engine->progress())) found.troubles.push_back(trouble);
+    const double before = peak_bytes();
     found.outputs = foresee_outputs(scene, choice, *engine, found.population, found.step_seconds);
+    found.memory_bytes += peak_bytes() - before + found.outputs.ffmpeg_bytes;  // pictures, what an analysis remembers
   });
 }
 
@@ -151,7 +164,11 @@ void try_run(const Scene& scene, const EngineChoice& choice, State initial, Find
 void try_ranks(const Scene& scene, const EngineChoice& choice, int ranks, bool tried, Findings& found) {
   if (!tried) fail_input("--ranks", "the disks grow for too long to be tried", "expected no --ranks");
   found.ranks = within_memory(scene, [&] { return foresee_ranks(scene, make_initial_state(choice, scene), ranks); });
-  if (found.ranks->first_has_all) found.ranks->first_bytes = found.memory_bytes + mpi_bytes;
+  if (found.ranks->first_has_all) {
+    found.ranks->first_bytes = found.memory_bytes + mpi_bytes;
+  } else {
+    found.ranks->first_bytes += found.outputs.ffmpeg_bytes;
+  }
 }
 
 }  // namespace
