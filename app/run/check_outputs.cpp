@@ -289,13 +289,18 @@ double quantities_of(const Scene& scene) {
   return static_cast<double>(std::count(scene.analysis.wanted.begin(), scene.analysis.wanted.end(), true));
 }
 
-double checkpoint_bytes(const State& state, double scale) {
-  if (state.disks.size() > most_rehearsed) {
+// Of a state like this one, but with so many disks.
+double checkpoint_bytes(const State& state, double disks) {
+  const Disks& d = state.disks;
+  if (d.size() > most_rehearsed) {
     constexpr double disk_bytes = 60.0, spin_bytes = 8.0;
-    return (state.disks.spins() ? disk_bytes + spin_bytes : disk_bytes) * static_cast<double>(state.disks.size()) *
-           scale;
+    return (d.spins() ? disk_bytes + spin_bytes : disk_bytes) * disks;
   }
-  return scale * static_cast<double>(encode_checkpoint({}, state).size());
+  const double columns = 4.0 + static_cast<double>(!d.radius.empty()) + static_cast<double>(!d.mass.empty()) +
+                         static_cast<double>(d.spins());
+  const double disk_bytes = sizeof(DiskId) + sizeof(double) * columns;
+  return static_cast<double>(encode_checkpoint({}, state).size()) +
+         disk_bytes * (disks - static_cast<double>(d.size()));
 }
 
 // What a checkpoint keeps for plots that are drawn at the end, a frame: ten curves and the bands, or energies; and the
@@ -347,18 +352,19 @@ OutputForesight foresee_outputs(const Scene& scene, const EngineChoice& choice, 
   }
   add_plots(scene, population.mean, f);
   if (scene.analysis.any()) {
-    constexpr double sample_bytes = 60.0, table_bytes = 3e4;
-    f.files.emplace_back("analysis.h5", table_bytes + sample_bytes * static_cast<double>(f.samples));
+    constexpr double file_bytes = 10e3, table_bytes = 10e3, sample_bytes = 30.0;
+    const double each = table_bytes + sample_bytes * static_cast<double>(f.samples);
+    f.files.emplace_back("analysis.h5", file_bytes + each * quantities_of(scene));
     f.files.emplace_back("plots of the analysis", quantities_of(scene) * 1.5 * plot_bytes);
   }
   if (scene.output.checkpoint > 0.0) {
-    const double bytes =
-        checkpoint_bytes(tried.state(), std::max(1.0, population.end / std::max(1.0, population.start)));
+    const double bytes = checkpoint_bytes(tried.state(), population.end);
     const double remembered = remembered_bytes(scene, static_cast<double>(f.frames), population.end);
     // Where the run ends before its second checkpoint is due, the one before the last is that of its start.
     const bool one_alone = step_seconds < scene.output.checkpoint;
     f.files.emplace_back(checkpoint_name, bytes + remembered);
-    f.files.emplace_back(previous_checkpoint_name, one_alone ? bytes : bytes + remembered);
+    f.files.emplace_back(previous_checkpoint_name,
+                         one_alone ? checkpoint_bytes(tried.state(), population.start) : bytes + remembered);
   }
   return f;
 }

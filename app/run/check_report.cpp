@@ -10,6 +10,7 @@
 #include "core/base/input_message.hpp"
 #include "core/base/short_number.hpp"
 #include "core/load/method_choice.hpp"
+#include "core/load/method_rates.hpp"
 #include "core/scene/disk_group.hpp"
 #include "core/scene/scene_names.hpp"
 #include "core/step/step_clock.hpp"
@@ -175,9 +176,14 @@ std::string cost_text(const Scene& scene, const Findings& f) {
   part("plots", f.outputs.plots_s);
   if (has_sinks(scene) && f.population.end > f.population.start) text += "; less as sinks take disks away";
   // The trial sees the disks fall.
-  const bool piles_up = scene.run.method == Method::pairwise && settles(scene);
-  return piles_up ? text + "; once disks lie in a pile, a step takes 5 to 50 times as long, the longer the taller it is"
-                  : text;
+  if (!settles(scene)) return text;
+  if (scene.run.method == Method::pairwise) {
+    text += "; once disks lie in a pile, a step takes 5 to 50 times as long, the longer the taller it is";
+  } else if (const std::optional<double> tc = scene.physics.collapse_contact_time) {
+    const double each = 0.5 * rates::pile_collisions / *tc;
+    text += fmt::format("; once disks lie in a pile, each makes about {:.0e} collisions in a unit of time", each);
+  }
+  return text;
 }
 
 std::string offer_text(const MethodOffer& offer, bool best) {

@@ -35,6 +35,7 @@ void FrameSchedule::made(double time) {
 }
 
 Count frame_count(double every, double t_end) {
+  if (!(t_end > 0.0)) return 1;
   if (every <= 0.0) return 2;
   return static_cast<Count>(std::min(std::ceil(t_end / every - end_slack), 1e18)) + 1;
 }

@@ -24,7 +24,8 @@ TEST(StepTrial, OneStepAloneStandsForAll) {
   EXPECT_EQ(StepTrial{}.seconds_to(0.0), 0.0);
 }
 
-using LongCheckCost = test::CommandTest;
+using CheckCost = test::CommandTest;
+using LongCheckCost = CheckCost;
 
 // 60 MB and 70 bytes a pixel; what the pictures take in the run itself comes on top.
 TEST_F(LongCheckCost, AMovieNeedsFfmpegsMemoryToo) {
@@ -35,6 +36,39 @@ TEST_F(LongCheckCost, AMovieNeedsFfmpegsMemoryToo) {
   EXPECT_GT(bytes(movie), bytes("") + 60e6 + 70.0 * 640.0 * 480.0);
   EXPECT_THAT(carom("check small.toml" + movie).out, HasSubstr(", 81.5 MB of it for ffmpeg"));
   EXPECT_THAT(carom("check small.toml").out, Not(HasSubstr("ffmpeg")));
+}
+
+// Of 2000 disks from a source in an empty box, some of which the trial sees: 36 bytes each, and not each of these times
+// the number that comes. The one before is that of the start.
+TEST_F(CheckCost, ACheckpointHasTheDisksOfSourcesOnce) {
+  write(
+      "source.toml",
+      "[box]\nwidth = 100.0\nheight = 100.0\n[[sources]]\nregion = [5.0, 5.0, 95.0, 95.0]\nrate = 400.0\nradius = 0.2\n"
+      "mass = 1.0\nvelocities = { maxwell = 1.0 }\n[run]\nmethod = \"pairwise\"\ndt = 0.01\nt_end = 5.0\n[output]\n"
+      "checkpoint = 1000\n");
+  const Json files = Json::parse(carom("check source.toml --json").out)["files_bytes"];
+  EXPECT_NEAR(files["checkpoint.carom"].get<double>(), 36.0 * 1999.0, 4000.0);
+  EXPECT_LT(files["checkpoint.previous.carom"].get<double>(), 4000.0);
+}
+
+TEST_F(LongCheckCost, AnAnalysisHasATableForEachQuantity) {
+  const std::string all =
+      " --t-end 10 --set output.every=10 --set 'analysis.what=[\"speeds\", \"density\", \"displacement\", "
+      "\"pressure\", "
+      "\"pair_correlation\", \"bond_order\", \"velocity_autocorrelation\"]'";
+  const Json files = Json::parse(carom("check small.toml --json" + all).out)["files_bytes"];
+  ASSERT_EQ(carom("run small.toml --quiet -o out" + all).status, 0);
+  const auto real = static_cast<double>(std::filesystem::file_size(at("out") / "analysis.h5"));
+  EXPECT_GT(files["analysis.h5"].get<double>(), 0.7 * real);
+  EXPECT_LT(files["analysis.h5"].get<double>(), 1.7 * real);
+}
+
+// With the TC model a disk at rest collides ten times in a contact time, which the trial of a fall does not see.
+TEST_F(CheckCost, APileUnderTheTcModelIsDear) {
+  const std::string fall =
+      "check small.toml --method exact --t-end 1 --set physics.gravity=1.0 --set physics.restitution=0.8 --set ";
+  EXPECT_THAT(carom(fall + "'physics.collapse={ model = \"tc\", contact_time = 1e-3 }'").out,
+              HasSubstr("lie in a pile, each makes about 5e+03 collisions in a unit of time"));
 }
 
 }  // namespace

@@ -38,7 +38,11 @@ TEST(FrameSchedule, FirstAndLastAlways) {
   EXPECT_THAT(frame_times(FrameSchedule(0.0, 2.0, 0.0), 0.5, 2.0), ElementsAre(0.0, 2.0));
   EXPECT_THAT(frame_times(FrameSchedule(5.0, 2.0, 0.0), 0.5, 2.0), ElementsAre(0.0, 2.0));
   EXPECT_THAT(frame_times(FrameSchedule(0.75, 2.0, 0.0), 2.0, 2.0), ElementsAre(0.0, 0.75, 1.5, 2.0));
-  EXPECT_THAT(frame_times(FrameSchedule(1.0, 0.0, 0.0), 1.0, 0.0), ElementsAre(0.0));
+  EXPECT_EQ(frame_count(0.0, 2.0), 2U);
+  for (const double every : {0.0, 1.0}) {
+    EXPECT_THAT(frame_times(FrameSchedule(every, 0.0, 0.0), 1.0, 0.0), ElementsAre(0.0));
+    EXPECT_EQ(frame_count(every, 0.0), 1U) << "the first is the last";
+  }
 }
 
 TEST(FrameSchedule, IntervalsFarBelowAStepDoNotHang) {
