@@ -119,6 +119,7 @@ Engine& Simulation::engine() {
 void Simulation::change(const Edit& edit) {
   const FloatEnvironment environment;
   order_known_ = stepped_ = false;
+  if (state().counters.steps == 0) start_changed_ = true;
   if (!edited_ && engine_->edit(edit)) return;
   if (!edited_) {
     keep_warnings();
@@ -140,6 +141,8 @@ void Simulation::keep_warnings() {
 // at the disks, change them or take up another state each time that run_until asks it.
 void Simulation::make_step() {
   Engine& steps = engine();
+  start_ = start();
+  start_changed_ = false;
   order_known_ = stepped_ = false;
   step_start_ = time();
   steps.step();
@@ -204,7 +207,7 @@ Summary Simulation::summary() const {
   const FloatEnvironment environment;
   // After a change by an engine for this alone: the next step's would move the disks that a caller looks at.
   const std::unique_ptr<Engine> looks = edited_ ? make_engine(choice_, scene_, *edited_) : nullptr;
-  Summary s = summarize(start_, looks ? *looks : *engine_, scene_, choice_);
+  Summary s = summarize(start(), looks ? *looks : *engine_, scene_, choice_);
   s.warnings = validity_so_far(scene_, state());
   if (!done()) return s;
   const std::vector<std::string> at_end = few_inaccurate_warnings(scene_, state());
@@ -223,7 +226,7 @@ RunRecord Simulation::record() const {
   record.scene_file = scene_.file;
   record.scene_text = scene_text_;
   record.engine = choice_.name;
-  record.start = start_;
+  record.start = start();
   return record;
 }
 
@@ -251,6 +254,7 @@ void Simulation::load(std::string_view bytes) {
   }
   if (checkpoint.state.sources.size() != scene_.sources.size()) scene_in(checkpoint, "saved state");
   start_ = checkpoint.record.start;
+  start_changed_ = false;
   keep_warnings();
   edited_ = std::move(checkpoint.state);
   step_start_ = time();

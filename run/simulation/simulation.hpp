@@ -13,6 +13,7 @@
 #include "core/disks/obstacle_cells.hpp"
 #include "core/disks/state.hpp"
 #include "core/load/scene_file.hpp"
+#include "core/measure/run_start.hpp"
 #include "core/start/growth.hpp"
 #include "core/step/edit.hpp"
 #include "core/step/engine.hpp"
@@ -106,6 +107,7 @@ class Simulation {
  private:
   Simulation(Checkpoint checkpoint, const std::string& name, EngineChoice engine);
   RunRecord record() const;
+  RunStart start() const { return start_changed_ ? run_start(state(), scene_) : start_; }
   Engine& engine();
   void change(const Edit& edit);
   void keep_warnings();
@@ -118,6 +120,7 @@ class Simulation {
   std::string scene_text_;
   EngineChoice choice_;
   RunStart start_;
+  bool start_changed_ = false;                  // before the first step: it is that of the disks as they are then
   std::unique_ptr<const ObstacleCells> fixed_;  // for queries; null where no disk is fixed
   // Likewise, inner walls; those that move where they were at walls_time_.
   mutable std::unique_ptr<const ObstacleCells> walls_;

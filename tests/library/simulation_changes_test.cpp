@@ -56,6 +56,29 @@ TEST(SimulationChanges, ChangesBetweenStepsHaveTheReferencesBits) {
   }
 }
 
+// What is changed before the first step belongs to the start with which a summary compares: the energy is kept, and the
+// pressure is known. So it is after saving; a later change is one of the run.
+TEST(SimulationChanges, ThoseBeforeTheFirstStepBelongToTheStart) {
+  Simulation s(
+      parse_scene("[box]\nwidth = 5.0\nheight = 5.0\n[[disks]]\ncount = 2\npositions = [[1.0, 1.0], [3.0, 3.0]]\n"
+                  "radius = 0.5\nmass = 1.0\n[run]\nt_end = 50.0\n",
+                  "rest", ""),
+      choice("parallel", 1));
+  s.set_velocity(0, {1.0, 0.5});
+  s.add({4.0, 1.0, -1.0, 0.0, 0.5, 2.0});
+  EXPECT_DOUBLE_EQ(s.summary().energy_initial, 1.625);
+  Simulation saved = Simulation::from_bytes(s.save(), choice("parallel", 1));
+  for (Simulation* run : {&s, &saved}) {
+    run->run_until(50.0);
+    const Summary summary = run->summary();
+    EXPECT_DOUBLE_EQ(summary.energy_initial, 1.625);
+    EXPECT_NEAR(summary.energy_final, 1.625, 1e-12);
+    EXPECT_GT(summary.pressure, 0.0) << "known";
+    run->remove(0);
+    EXPECT_DOUBLE_EQ(run->summary().energy_initial, 1.625);
+  }
+}
+
 // A disk of radius 0.3 at the first free one of eight random places.
 bool add_where_there_is_room(Simulation& s, Vec2 velocity, test::Draws& draw) {
   const Domain& box = s.scene().box;
