@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "app/cli/commands.hpp"
@@ -39,6 +40,23 @@ void warn_of_other_scene(const CheckpointPlace& place, const RunRecord& record) 
   print_warning(fmt::format("{} has changed: the run goes on with the scene in its checkpoint", file.string()));
 }
 
+// Where the results go: -o, or where those of the run lie. What a program saved lies among files of its own: the
+// results go where those of a new run do.
+std::optional<fs::path> folder_of(const ResumeOptions& options, const ResumeFrom& from, const Scene& scene) {
+  const bool of_program = is_of_program(from.checkpoint.record);
+  if (!options.folder && of_program) {
+    const std::optional<fs::path> folder = usual_folder(scene, options.force);
+    if (folder && !options.quiet) print_note(fmt::format("results go to {}", folder->string()));
+    return folder;
+  }
+  const fs::path folder = options.folder ? fs::path(*options.folder) : from.place.folder;
+  std::error_code error;
+  if (of_program || !fs::equivalent(folder, from.place.folder, error)) {
+    check_output_folder(folder, from.place.file, options.force);
+  }
+  return folder;
+}
+
 }  // namespace
 
 int command_resume(const ResumeOptions& options) {
@@ -62,13 +80,8 @@ int command_resume(const ResumeOptions& options) {
     print_warning(fmt::format("{} was written by Carom {}; {} may differ from it in the last bits", options.checkpoint,
                               record.version, CAROM_VERSION));
   }
-  if (!options.quiet) warn_of_other_scene(from.place, record);
-  const fs::path folder = options.folder ? fs::path(*options.folder) : from.place.folder;
-  std::error_code error;
-  if (!fs::equivalent(folder, from.place.folder, error)) {
-    check_output_folder(folder, from.place.file, options.force);
-  }
-  settings.folder = folder;
+  if (!options.quiet && !is_of_program(record)) warn_of_other_scene(from.place, record);
+  settings.folder = folder_of(options, from, scene);
   return run_and_report(options, scene, std::move(settings), std::move(from), nullptr);
 }
 

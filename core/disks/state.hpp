@@ -21,7 +21,8 @@ struct Counters {
   double disk_time = 0.0;         // for how long each disk was there, all together; of stepping see count_step; time
   double disk_time_excess = 0.0;  // by which rounding has made that sum too large
   double virial = 0.0;            // sum over disk-disk collisions of |impulse| (r1 + r2); mass length^2 / time
-  double emitted_energy = 0.0;    // that disks from sources came with, kinetic and potential
+  // That disks from sources came with, of motion, position and rotation; and that changes by a program brought.
+  double emitted_energy = 0.0;
   double wall_impulse[4] = {0, 0, 0, 0};  // sum of |impulse| on each side (order of Side); mass length / time
   // Energy that each side has given to the disks: heat of a thermal one, work of one that moves.
   double side_energy[4] = {0, 0, 0, 0};

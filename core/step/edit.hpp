@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/disks/gravity.hpp"
 #include "core/disks/state.hpp"
 
 namespace carom {
@@ -13,7 +14,11 @@ struct Edit {
   Kind kind = Kind::add;
   Disk disk;              // add: all of it, with the id that is next; set_velocity: vx and vy
   std::size_t index = 0;  // of the others: where the disk is stored
+  double energy = 0.0;    // that it brings, which counts as what sources bring; energy_brought
 };
+
+// What a change brings in energy of motion, position and rotation; below 0 where it takes some.
+double energy_brought(const Edit& edit, const Disks& disks, const Gravity& gravity);
 
 // Makes the change in the columns and in what the state remembers of the disk; a new disk is stored last, and the last
 // one takes the place of one that goes. Precondition: the disk has room, and its numbers are in range.

@@ -27,6 +27,11 @@ struct RunRecord {
   std::vector<std::string> warnings;               // of its start; the others are in the state
 };
 
+// Of one that a program saved, from a simulation that is no run: without any outputs so far, and no wall time.
+inline bool is_of_program(const RunRecord& record) {
+  return !(record.wall_s > 0.0);
+}
+
 struct Checkpoint {
   RunRecord record;
   State state;

@@ -48,7 +48,7 @@ const OutputFolder& with_files(OutputFolder& folder, const fs::path& path, const
 
 bool goes_elsewhere(const ResumeFrom& from, const fs::path& folder) {
   std::error_code error;
-  return !fs::equivalent(folder, from.place.folder, error);
+  return is_of_program(from.checkpoint.record) || !fs::equivalent(folder, from.place.folder, error);
 }
 
 RunFiles::RunFiles(const Scene& scene, const RunSettings& settings, const fs::path& path)
@@ -58,8 +58,10 @@ RunFiles::RunFiles(const Scene& scene, const RunSettings& settings, const fs::pa
 
 RunFiles::RunFiles(const Scene& scene, const RunSettings& settings, const fs::path& path, const ResumeFrom& from)
     : folder(goes_elsewhere(from, path) ? OutputFolder(path, from.place.file, settings.force) : OutputFolder(path)),
-      outputs(scene, with_files(folder, path, from), make_block_runner(settings.engine),
-              from.checkpoint.record.outputs) {
+      outputs(is_of_program(from.checkpoint.record)
+                  ? RunOutputs(scene, folder, make_block_runner(settings.engine))
+                  : RunOutputs(scene, with_files(folder, path, from), make_block_runner(settings.engine),
+                               from.checkpoint.record.outputs)) {
   write_file(folder.path("scene.toml"), resolved_toml(scene));
 }
 

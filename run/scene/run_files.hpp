@@ -9,7 +9,8 @@
 
 namespace carom {
 
-// Does the run go on in another folder than the one in which its files lie, with copies of them?
+// Does the run go on in another folder than the one in which its files lie, with copies of them? A checkpoint that a
+// program saved has no files: its outputs begin with the run that goes on from it.
 bool goes_elsewhere(const ResumeFrom& from, const std::filesystem::path& folder);
 
 struct RunFiles {

@@ -116,10 +116,15 @@ Engine& Simulation::engine() {
   return *engine_;
 }
 
-void Simulation::change(const Edit& edit) {
+// What comes before the first step belongs to the start; the energy that a later change brings is put into the run.
+void Simulation::change(Edit edit) {
   const FloatEnvironment environment;
   order_known_ = stepped_ = false;
-  if (state().counters.steps == 0) start_changed_ = true;
+  if (state().counters.steps == 0) {
+    start_changed_ = true;
+  } else {
+    edit.energy = energy_brought(edit, state().disks, scene_.physics.gravity);
+  }
   if (!edited_ && engine_->edit(edit)) return;
   if (!edited_) {
     keep_warnings();
@@ -306,7 +311,7 @@ std::optional<DiskId> Simulation::add(Disk disk) {
   if (met) return std::nullopt;
   disk.id = state().next_id;
   if (!state().disks.spins()) disk.spin = 0.0;
-  change({Edit::Kind::add, disk, 0});
+  change({Edit::Kind::add, disk});
   return disk.id;
 }
 

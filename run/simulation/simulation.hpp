@@ -109,7 +109,7 @@ class Simulation {
   RunRecord record() const;
   RunStart start() const { return start_changed_ ? run_start(state(), scene_) : start_; }
   Engine& engine();
-  void change(const Edit& edit);
+  void change(Edit edit);
   void keep_warnings();
   void make_step();
   VisitNear visit_near() const;

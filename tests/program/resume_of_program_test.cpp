@@ -1,0 +1,64 @@
+// carom resume of what a program saved: its outputs begin there, nothing beside the file is touched, and the energy
+// that changes brought is no energy from nowhere.
+#include <fmt/format.h>
+
+#include "core/load/scene_file.hpp"
+#include "run/simulation/simulation.hpp"
+#include "tests/support/command_support.hpp"
+
+namespace carom {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using test::Outcome;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+class ResumeOfProgram : public test::CommandTest {
+ protected:
+  // A simulation of small.toml at time 0.5, in which disk 0 is ten times as fast as any was; saved beside files of the
+  // user's own.
+  std::string save() const {
+    Simulation s(load_scene((at("small.toml")).string(), {}), choose_engine("", 1));
+    s.run_until(0.5);
+    s.set_velocity(0, {10.0, 0.0});
+    fs::create_directories(at("mine"));
+    write("mine/scene.toml", "# mine");
+    write("mine/series.csv", "mine");
+    s.save(at("mine/state.carom").string());
+    s.run_until(1.0);
+    return fmt::format("{:016x}", s.hash());
+  }
+};
+
+TEST_F(ResumeOfProgram, OutputsBeginAndNothingIsReplaced) {
+  const std::string hash = save();
+  const Outcome o = carom("resume mine/state.carom --json");
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_THAT(o.err, HasSubstr("results go to out/small"));
+  EXPECT_THAT(o.err, Not(HasSubstr("has changed")));
+  const Json j = Json::parse(o.out);
+  EXPECT_EQ(j["state_hash"], hash);
+  EXPECT_EQ(j["frames"], 6) << "of 0.5 to 1.0";
+  EXPECT_THAT(files_in("mine"), testing::ElementsAre("scene.toml", "series.csv", "state.carom"));
+  EXPECT_EQ(test::text_of(at("mine/scene.toml")), "# mine");
+  EXPECT_EQ(test::text_of(at("mine/series.csv")), "mine");
+  EXPECT_THAT(files_in("out/small"),
+              testing::IsSupersetOf({"scene.toml", "series.csv", "summary.json", "trajectory.xyz"}));
+  const std::string series = test::text_of(at("out/small/series.csv"));
+  EXPECT_THAT(series.substr(series.find('\n') + 1), StartsWith("0.5"));
+  EXPECT_THAT(carom("resume mine/state.carom --quiet -o mine").err, HasSubstr("scene.toml of an earlier run"));
+}
+
+// A quarter of a hundred times the energy of before, which a change brought.
+TEST_F(ResumeOfProgram, EnergyThatAChangeBroughtIsPutIn) {
+  save();
+  const Outcome o = carom("resume mine/state.carom --strict -o again");
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_THAT(o.err, Not(HasSubstr("was put in")));
+}
+
+}  // namespace
+}  // namespace carom
