@@ -65,14 +65,16 @@ Count places_at_start(const Selection& select, Count disks) {
   const Count end = std::min<Count>(select.ids.end, disks);
   return end > select.ids.first ? (end - select.ids.first + select.stride - 1) / select.stride : 0;
 }
-bool may_grow(const Selection& select, const Scene& scene, Count disks) {
-  return select.by_region || (!scene.sources.empty() && select.ids.end > disks);
+// next_id: of the disks so far, beyond those of the scene where a program has added some.
+bool may_grow(const Selection& select, const Scene& scene, Count disks, DiskId next_id) {
+  return select.by_region || ((!scene.sources.empty() || next_id > disks) && select.ids.end > disks);
 }
 
 }  // namespace
 
 struct H5mdWriter::File {
-  File(const std::string& file_path, const Scene& scene, bool existing, const DisplacementTally* rounds);
+  File(const std::string& file_path, const Scene& scene, bool existing, const DisplacementTally* rounds,
+       DiskId next_id);
   File(const File&) = delete;
   File& operator=(const File&) = delete;
   ~File();
@@ -109,13 +111,14 @@ struct H5mdWriter::File {
   double unflushed_work = 0.0;
 };
 
-H5mdWriter::File::File(const std::string& file_path, const Scene& scene, bool existing, const DisplacementTally* rounds)
+H5mdWriter::File::File(const std::string& file_path, const Scene& scene, bool existing, const DisplacementTally* rounds,
+                       DiskId next_id)
     : path(file_path),
       output(file_path, existing),
       select(scene.output.select),
       form{scene.output.single_precision, scene.output.dimensions, ends_of_groups(scene), rounds},
       exact(scene.run.method == Method::exact),
-      growing(may_grow(select, scene, disks_at_start(scene))),
+      growing(may_grow(select, scene, disks_at_start(scene), next_id)),
       rotates(scene.physics.surfaces.are_rough()),
       elements(h5md_elements(scene, rounds != nullptr)),
       shown_columns(observables_of(scene)),
@@ -315,15 +318,16 @@ void H5mdWriter::File::close() {
   write_xdmf(path, {times, places, elements[0].kind.width, form.dimensions, select.by_region});
 }
 
-H5mdWriter::H5mdWriter(const std::string& path, const Scene& scene, const DisplacementTally* rounds)
-    : file_(std::make_unique<File>(path, scene, false, rounds)) {
+H5mdWriter::H5mdWriter(const std::string& path, const Scene& scene, const DisplacementTally* rounds, DiskId next_id)
+    : file_(std::make_unique<File>(path, scene, false, rounds, next_id)) {
   file_->describe(scene);
   file_->make_elements();
   file_->output.start_safe_writing();
 }
 
-H5mdWriter::H5mdWriter(const std::string& path, const Scene& scene, Count frames, const DisplacementTally* rounds)
-    : file_(std::make_unique<File>(path, scene, true, rounds)) {
+H5mdWriter::H5mdWriter(const std::string& path, const Scene& scene, Count frames, const DisplacementTally* rounds,
+                       DiskId next_id)
+    : file_(std::make_unique<File>(path, scene, true, rounds, next_id)) {
   file_->open_elements(frames);
   file_->output.start_safe_writing();
 }

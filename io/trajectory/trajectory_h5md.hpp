@@ -17,12 +17,15 @@ namespace carom {
 class H5mdWriter {
  public:
   // Creates or replaces the file. rounds: how often each disk has gone round the periodic sides, kept by the caller;
-  // null: the file does not contain it. Throws RunError where it cannot be written, here and below.
-  H5mdWriter(const std::string& path, const Scene& scene, const DisplacementTally* rounds = nullptr);
+  // null: the file does not contain it. next_id: of the state; beyond the disks of the scene where a program has added
+  // some. Throws RunError where it cannot be written, here and below.
+  H5mdWriter(const std::string& path, const Scene& scene, const DisplacementTally* rounds = nullptr,
+             DiskId next_id = 0);
 
   // Goes on with the file that a writer of this scene left, closed or killed, after its first `frames` frames; what
   // follows them is cut off. Throws RunError if it has fewer, or was written for other disks.
-  H5mdWriter(const std::string& path, const Scene& scene, Count frames, const DisplacementTally* rounds = nullptr);
+  H5mdWriter(const std::string& path, const Scene& scene, Count frames, const DisplacementTally* rounds = nullptr,
+             DiskId next_id = 0);
 
   ~H5mdWriter();
   H5mdWriter(const H5mdWriter&) = delete;

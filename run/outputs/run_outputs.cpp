@@ -37,7 +37,7 @@ bool wants_files(const Scene& scene) {
   return wants_frames(scene.output) || scene.analysis.any() || scene.output.checkpoint > 0.0;
 }
 
-RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, BlockRunner run)
+RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, BlockRunner run, DiskId next_id)
     : scene_(scene),
       folder_(folder),
       run_(std::move(run)),
@@ -48,13 +48,15 @@ RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, BlockRunn
     trajectory_ = std::make_unique<XyzWriter>(folder.path("trajectory.xyz"), xyz_plan());
   }
   if (scene.output.trajectory == TrajectoryFormat::h5md) {
-    h5md_ = std::make_unique<H5mdWriter>(folder.path("trajectory.h5"), scene, shows_rounds() ? &rounds_ : nullptr);
+    h5md_ =
+        std::make_unique<H5mdWriter>(folder.path("trajectory.h5"), scene, shows_rounds() ? &rounds_ : nullptr, next_id);
   }
   if (scene.output.series) series_ = std::make_unique<SeriesWriter>(folder.path("series.csv"), scene);
   if (scene.analysis.any()) analysis_ = std::make_unique<RunningAnalysis>(scene, folder, run_);
 }
 
-RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, BlockRunner run, const OutputMark& from)
+RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, BlockRunner run, const OutputMark& from,
+                       DiskId next_id)
     : scene_(scene),
       folder_(folder),
       run_(std::move(run)),
@@ -72,7 +74,7 @@ RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, BlockRunn
     const std::string path = folder.path(from.trajectory->name);
     if (scene.output.trajectory == TrajectoryFormat::h5md) {
       const DisplacementTally* const rounds = shows_rounds() ? &rounds_ : nullptr;
-      h5md_ = std::make_unique<H5mdWriter>(path, scene, from.trajectory->frames, rounds);
+      h5md_ = std::make_unique<H5mdWriter>(path, scene, from.trajectory->frames, rounds, next_id);
     } else {
       trajectory_ = std::make_unique<XyzWriter>(path, xyz_plan(), *from.trajectory);
     }

@@ -27,10 +27,10 @@ class RunOutputs {
  public:
   // Opens the files in the folder. run: shares out the work of a frame or sample; the files are the same. Throws
   // RunError where a file cannot be written, here and below.
-  RunOutputs(const Scene& scene, const OutputFolder& folder, BlockRunner run);
+  RunOutputs(const Scene& scene, const OutputFolder& folder, BlockRunner run, DiskId next_id = 0);
 
   // Goes on behind a mark: cuts back what came after it. Precondition: files_of(from) are in folder.unfinished().
-  RunOutputs(const Scene& scene, const OutputFolder& folder, BlockRunner run, const OutputMark& from);
+  RunOutputs(const Scene& scene, const OutputFolder& folder, BlockRunner run, const OutputMark& from, DiskId next_id);
 
   // To be called after each step, and before a frame or a sample at time t: how often disks go round periodic sides.
   void follow(const Engine& engine, double t);

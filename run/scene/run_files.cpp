@@ -56,12 +56,13 @@ RunFiles::RunFiles(const Scene& scene, const RunSettings& settings, const fs::pa
   write_file(folder.path("scene.toml"), resolved_toml(scene));
 }
 
-RunFiles::RunFiles(const Scene& scene, const RunSettings& settings, const fs::path& path, const ResumeFrom& from)
+RunFiles::RunFiles(const Scene& scene, const RunSettings& settings, const fs::path& path, const ResumeFrom& from,
+                   DiskId next_id)
     : folder(goes_elsewhere(from, path) ? OutputFolder(path, from.place.file, settings.force) : OutputFolder(path)),
       outputs(is_of_program(from.checkpoint.record)
-                  ? RunOutputs(scene, folder, make_block_runner(settings.engine))
+                  ? RunOutputs(scene, folder, make_block_runner(settings.engine), next_id)
                   : RunOutputs(scene, with_files(folder, path, from), make_block_runner(settings.engine),
-                               from.checkpoint.record.outputs)) {
+                               from.checkpoint.record.outputs, next_id)) {
   write_file(folder.path("scene.toml"), resolved_toml(scene));
 }
 

@@ -16,8 +16,9 @@ bool goes_elsewhere(const ResumeFrom& from, const std::filesystem::path& folder)
 struct RunFiles {
   // Of a run that begins; scene must outlive it. Throws InputError, RunError.
   RunFiles(const Scene& scene, const RunSettings& settings, const std::filesystem::path& path);
-  // Of a run that goes on.
-  RunFiles(const Scene& scene, const RunSettings& settings, const std::filesystem::path& path, const ResumeFrom& from);
+  // Of a run that goes on; next_id: of its state.
+  RunFiles(const Scene& scene, const RunSettings& settings, const std::filesystem::path& path, const ResumeFrom& from,
+           DiskId next_id);
 
   OutputFolder folder;
   RunOutputs outputs;

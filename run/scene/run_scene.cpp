@@ -330,7 +330,9 @@ RunOutcome carry_out(const Scene& scene, ResumeFrom* from, RunSettings settings)
   CheckpointKeeper keeper(record, settings.start_time, interval, settings.max_walltime);
   try {
     std::optional<RunFiles> results;
-    if (settings.folder && from != nullptr) results.emplace(scene, settings, *settings.folder, *from);
+    if (settings.folder && from != nullptr) {
+      results.emplace(scene, settings, *settings.folder, *from, engine->progress().next_id);
+    }
     if (settings.folder && from == nullptr) results.emplace(scene, settings, *settings.folder);
     RunFiles* const files = results ? &*results : nullptr;
     const bool there = from != nullptr && settings.folder && !goes_elsewhere(*from, *settings.folder);

@@ -33,6 +33,8 @@ class ResumeOfProgram : public test::CommandTest {
   }
 };
 
+using LongResumeOfProgram = ResumeOfProgram;
+
 TEST_F(ResumeOfProgram, OutputsBeginAndNothingIsReplaced) {
   const std::string hash = save();
   const Outcome o = carom("resume mine/state.carom --json");
@@ -50,6 +52,28 @@ TEST_F(ResumeOfProgram, OutputsBeginAndNothingIsReplaced) {
   const std::string series = test::text_of(at("out/small/series.csv"));
   EXPECT_THAT(series.substr(series.find('\n') + 1), StartsWith("0.5"));
   EXPECT_THAT(carom("resume mine/state.carom --quiet -o mine").err, HasSubstr("scene.toml of an earlier run"));
+}
+
+// A file with a place for each disk of the scene has some for those that a program added, too; also when a run that
+// began so stops and goes on.
+TEST_F(LongResumeOfProgram, TrajectoriesHaveTheDisksThatAProgramAdded) {
+  for (const std::string format : {"xyz", "h5md"}) {
+    Simulation s(load_scene(at("small.toml").string(), {{"output.trajectory", format}, {"run.t_end", "4.0"}}),
+                 choose_engine("", 1));
+    s.run_until(0.5);
+    s.remove(2);
+    ASSERT_TRUE(s.add({0.2, 0.2, 1.0, 0.5, 0.1, 1.0}));
+    ASSERT_TRUE(s.add({0.2, 9.8, 1.0, 0.5, 0.1, 1.0}));
+    s.save(at("state.carom").string());
+    s.run_until(4.0);
+    ASSERT_EQ(carom("resume state.carom --max-walltime 0.000001 --quiet -o " + format).status, 4);
+    const Outcome o = carom("resume --json " + format);
+    ASSERT_EQ(o.status, 0) << o.err;
+    EXPECT_EQ(Json::parse(o.out)["state_hash"], fmt::format("{:016x}", s.hash()));
+    const Outcome same = carom("resume state.carom --quiet -o whole_" + format);
+    ASSERT_EQ(same.status, 0) << same.err;
+    EXPECT_EQ(carom(fmt::format("compare {0} whole_{0}", format)).status, 0);
+  }
 }
 
 // A quarter of a hundred times the energy of before, which a change brought.
