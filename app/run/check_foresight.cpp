@@ -197,7 +197,22 @@ double StepTrial::seconds_to(double t_end) const {
   if (!(t_end > 0.0)) return 0.0;
   if (!(end > 0.0)) return infinity;
   if (!(end > first_end)) return seconds * t_end / end;
-  return first_seconds + (seconds - first_seconds) * (t_end - first_end) / (end - first_end);
+  const auto paid = [&](double t) { return slowing > 0.0 ? std::log1p(slowing * t) : t; };
+  return seconds + (seconds - first_seconds) * (paid(t_end) - paid(end)) / (paid(end) - paid(first_end));
+}
+
+double slowing_of_collisions(double half, Count count_half, double end, Count count_end) {
+  constexpr Count enough = 10'000;
+  constexpr double steady = 0.97, least = 1e-3, most = 1e6;  // of k times the end
+  if (count_half < enough || !(end > half)) return 0.0;
+  const double ratio = static_cast<double>(count_end) / static_cast<double>(count_half);
+  if (ratio > std::pow(end / half, steady)) return 0.0;
+  double low = least / end, high = most / end;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = std::sqrt(low * high);
+    (std::log1p(middle * end) > ratio * std::log1p(middle * half) ? low : high) = middle;
+  }
+  return low;
 }
 
 double StepForesight::safe() const {

@@ -36,8 +36,14 @@ struct CollapseForesight {
 struct StepTrial {
   double first_seconds = 0.0, first_end = 0.0;  // of the first step: wall time, and the simulated time at its end
   double seconds = 0.0, end = 0.0;              // of all of them
+  double slowing = 0.0;                         // k: what is to pay for goes as ln(1 + k t), as t where that is 0
   double seconds_to(double t_end) const;        // of all steps to there; infinite where the trial came nowhere
 };
+
+// k of collisions that grow as ln(1 + k t), by Haff's law where a gas cools, and at most so where it loses its disks.
+// half, end: two times; the counts: of collisions up to each. 0 where there are too few to tell, or they are as
+// frequent as before.
+double slowing_of_collisions(double half, Count count_half, double end, Count count_end);
 
 StepForesight foresee_steps(const Scene& scene, const Disks& start);
 Population foresee_population(const Scene& scene, const Disks& start);

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "app/cli/commands.hpp"
 #include "app/cli/messages.hpp"
@@ -17,6 +20,7 @@
 #include "core/load/scene_scales.hpp"
 #include "core/measure/invariants.hpp"
 #include "core/start/initial_state.hpp"
+#include "core/step/step_start.hpp"
 #include "core/step/validity.hpp"
 #include "run/engine/make_engine.hpp"
 #include "run/outputs/run_outputs.hpp"
@@ -105,16 +109,29 @@ double share_left(const Engine& engine, const Scene& scene, const Population& po
   return std::sqrt(-std::expm1(-losses) / losses);
 }
 
-// Makes the first steps, for trial_seconds after the first.
-StepTrial time_steps(Engine& engine, double t_end, std::string& stopped) {
+// Will disks collide ever less, as they lose energy or leave, and nothing brings any?
+bool runs_down(const Scene& scene) {
+  const Physics& physics = scene.physics;
+  const bool still = std::all_of(all_sides.begin(), all_sides.end(),
+                                 [&](Side side) { return !scene.box.is_thermal(side) && !scene.box.moves(side); });
+  const bool nothing_comes = still && !scene.box.inner_walls_move && !scene.box.shear.acts() &&
+                             !physics.thermostat.acts() && !physics.gravity.acts() && scene.sources.empty();
+  return nothing_comes && !(physics.diffusion > 0.0) && (disks_dissipate(scene) || has_sinks(scene));
+}
+
+// Makes the first steps, for trial_seconds after the first. The exact method is paid by the collision.
+StepTrial time_steps(Engine& engine, const Scene& scene, std::string& stopped) {
   const auto start = WallClock::now();
   engine.set_watch([&] { return seconds_since(start) < longest_trial; });
   StepTrial trial;
+  std::vector<std::pair<double, Count>> seen;  // time, and collisions up to there
   try {
-    while (engine.state().time < t_end && trial.seconds < trial.first_seconds + trial_seconds) {
+    while (engine.state().time < scene.run.t_end && trial.seconds < trial.first_seconds + trial_seconds) {
       engine.step();
       trial.seconds = seconds_since(start);
       trial.end = engine.state().time;
+      const Counters& counters = engine.state().counters;
+      seen.emplace_back(trial.end, counters.collisions + counters.wall_collisions);
       if (trial.first_end > 0.0) continue;
       trial.first_seconds = trial.seconds;
       trial.first_end = trial.end;
@@ -123,14 +140,21 @@ StepTrial time_steps(Engine& engine, double t_end, std::string& stopped) {
     stopped = error.what();
   }
   engine.set_watch({});
+  const auto is_half = [&](const auto& moment) { return moment.first >= 0.5 * trial.end; };
+  const auto half = std::find_if(seen.begin(), seen.end(), is_half);
+  if (scene.run.method == Method::exact && runs_down(scene) && half != seen.end()) {
+    trial.slowing = slowing_of_collisions(half->first, half->second, seen.back().first, seen.back().second);
+  }
   return trial;
 }
 
 // Runs the first steps, and extrapolates.
 void try_steps(Engine& engine, const Scene& scene, Findings& f) {
-  f.step_seconds = time_steps(engine, scene.run.t_end, f.stopped).seconds_to(scene.run.t_end);
+  const StepTrial trial = time_steps(engine, scene, f.stopped);
+  f.step_seconds = trial.seconds_to(scene.run.t_end);
   const double share = share_left(engine, scene, f.population);
-  if (engine.state().time < scene.run.t_end) f.step_seconds *= share;
+  const bool told_by_collisions = trial.slowing > 0.0;
+  if (engine.state().time < scene.run.t_end && !told_by_collisions) f.step_seconds *= share;
   f.population.mean *= share;
   look_as_a_run_does(engine, scene);
   f.memory_bytes = peak_bytes();

@@ -24,6 +24,21 @@ TEST(StepTrial, OneStepAloneStandsForAll) {
   EXPECT_EQ(StepTrial{}.seconds_to(0.0), 0.0);
 }
 
+// Haff's law: collisions of a gas that cools grow as ln(1 + t / tau), so that ten times the time is not ten times the
+// cost. A gas in equilibrium scatters.
+TEST(StepTrial, AGasThatCoolsCollidesEverLess) {
+  const auto haff = [](double t) { return static_cast<Count>(1e5 * std::log1p(t)); };
+  const double slowing = slowing_of_collisions(0.5, haff(0.5), 1.0, haff(1.0));
+  EXPECT_NEAR(slowing, 1.0, 0.01);
+  const StepTrial trial{0.1, 0.1, 0.3, 1.0, slowing};
+  const double real = 0.3 + 0.2 * (std::log1p(1e4) - std::log1p(1.0)) / (std::log1p(1.0) - std::log1p(0.1));
+  EXPECT_NEAR(trial.seconds_to(1e4), real, 0.02 * real) << "where at the pace of the trial it would be 2200";
+  EXPECT_EQ(slowing_of_collisions(50.0, 50'000, 100.0, 99'500), 0.0);
+  EXPECT_EQ(slowing_of_collisions(50.0, 50'000, 100.0, 150'000), 0.0) << "more frequent";
+  EXPECT_EQ(slowing_of_collisions(50.0, 100, 100.0, 110), 0.0) << "too few";
+  EXPECT_GT(slowing_of_collisions(50.0, 50'000, 100.0, 50'000), 1e3) << "all are gone";
+}
+
 using CheckCost = test::CommandTest;
 using LongCheckCost = CheckCost;
 
