@@ -124,6 +124,7 @@ StepTrial time_steps(Engine& engine, const Scene& scene, std::string& stopped) {
   const auto start = WallClock::now();
   engine.set_watch([&] { return seconds_since(start) < longest_trial; });
   StepTrial trial;
+  const bool slows = scene.run.method == Method::exact && runs_down(scene);
   std::vector<std::pair<double, Count>> seen;  // time, and collisions up to there
   try {
     while (engine.state().time < scene.run.t_end && trial.seconds < trial.first_seconds + trial_seconds) {
@@ -131,7 +132,7 @@ StepTrial time_steps(Engine& engine, const Scene& scene, std::string& stopped) {
       trial.seconds = seconds_since(start);
       trial.end = engine.state().time;
       const Counters& counters = engine.state().counters;
-      seen.emplace_back(trial.end, counters.collisions + counters.wall_collisions);
+      if (slows) seen.emplace_back(trial.end, counters.collisions + counters.wall_collisions);
       if (trial.first_end > 0.0) continue;
       trial.first_seconds = trial.seconds;
       trial.first_end = trial.end;
@@ -142,7 +143,7 @@ StepTrial time_steps(Engine& engine, const Scene& scene, std::string& stopped) {
   engine.set_watch({});
   const auto is_half = [&](const auto& moment) { return moment.first >= 0.5 * trial.end; };
   const auto half = std::find_if(seen.begin(), seen.end(), is_half);
-  if (scene.run.method == Method::exact && runs_down(scene) && half != seen.end()) {
+  if (half != seen.end()) {
     trial.slowing = slowing_of_collisions(half->first, half->second, seen.back().first, seen.back().second);
   }
   return trial;
