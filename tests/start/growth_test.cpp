@@ -190,6 +190,27 @@ TEST(Growth, StepTakesTheGapsToObstacles) {
   EXPECT_TRUE(grow_step(d, box, {9.0, 9.0, 1.5}).overlap);
 }
 
+// A gap as small as the rounding of coordinates is left alone: 2^-46 of the longer side.
+TEST(Growth, LeavesGapsThatRoundingMayHaveMade) {
+  EXPECT_EQ(usable_gap(-1.0, 64.0), 0.0);
+  EXPECT_EQ(usable_gap(0x1p-40, 64.0), 0.0);
+  EXPECT_EQ(usable_gap(0x1.8p-40, 64.0), 0.75 * 0x1.8p-40);
+}
+
+// A disk that touches a wall lies within it; by the last bit further it does not. Periodic sides hold nothing back.
+TEST(Growth, DisksLieWithinWallsToTheLastBit) {
+  const Domain walls = test::box_of(8.0, 4.0);
+  for (const Vec2 p : {Vec2{1.0, 1.0}, Vec2{7.0, 3.0}}) {
+    EXPECT_TRUE(within_sides(walls, p.x, p.y, 1.0));
+    const double outwards = p.x == 1.0 ? 0.0 : 8.0;
+    const double x = std::nextafter(p.x, outwards), y = std::nextafter(p.y, outwards);
+    EXPECT_FALSE(within_sides(walls, x, p.y, 1.0)) << x;
+    EXPECT_FALSE(within_sides(walls, p.x, y, 1.0)) << y;
+    EXPECT_TRUE(within_sides(test::box_of(8.0, 4.0, true, false), x, p.y, 1.0));
+    EXPECT_TRUE(within_sides(test::box_of(8.0, 4.0, false, true), p.x, y, 1.0));
+  }
+}
+
 void expect_same_step(const GrowthTally& tally, const Disks& d, const GrowthTally& plain, const Disks& other) {
   EXPECT_EQ(state_hash(d), state_hash(other));
   EXPECT_EQ(tally.lacking, plain.lacking);

@@ -96,6 +96,38 @@ TEST(StartRegion, ACircleStaysWhereItIsBetweenSidesThatMove) {
   }
 }
 
+// Nor a fixed disk: it is where the scene has it, as are the ends of a wall.
+TEST(StartRegion, ObstaclesStayWhereTheyAreBetweenSidesThatMove) {
+  const Scene scene = scene_from(
+      scene_with("[[disks]]\nfixed = true\ncount = 2\npositions = [[20.0, 15.0], [30.0, 9.0]]\nradius = 2.0\n" +
+                     group(20, "random", "") + "[[walls]]\nfrom = [12.0, 10.0]\nto = [14.0, 20.0]\n",
+                 "left = { motion = { velocity = [0.1, 0.0] }, place = 6.0 }\n"
+                 "top = { motion = { velocity = [0.0, -0.1] }, place = 27.0 }\n"
+                 "bottom = { motion = { velocity = [0.0, 0.1] }, place = 4.0 }\n"));
+  const std::vector<Obstacle> all = initial_state(scene).obstacles;
+  ASSERT_EQ(all.size(), 3U);
+  EXPECT_EQ((Vec2{all[0].x, all[0].y}), (Vec2{20.0, 15.0}));
+  EXPECT_EQ((Vec2{all[1].x, all[1].y}), (Vec2{30.0, 9.0}));
+  EXPECT_EQ((Vec2{all[2].x, all[2].y}), (Vec2{12.0, 10.0}));
+  EXPECT_EQ((Vec2{all[2].dx, all[2].dy}), (Vec2{2.0, 10.0}));
+}
+
+// A rectangle may touch a side that moves, where that is at time 0, and reach beyond none of the four.
+TEST(StartRegion, NoneReachesBeyondASideThatMoves) {
+  const auto said = [](const std::string& region) {
+    return complaint(scene_with(group(4, "random", "region = " + region + "\n"),
+                                "left = { motion = { velocity = [0.1, 0.0] }, place = 6.0 }\n"
+                                "right = { motion = { velocity = [-0.1, 0.0] }, place = 35.0 }\n"
+                                "bottom = { motion = { velocity = [0.0, 0.1] }, place = 4.0 }\n"
+                                "top = { motion = { velocity = [0.0, -0.1] }, place = 27.0 }\n"));
+  };
+  EXPECT_EQ(said("[6.0, 4.0, 35.0, 27.0]"), "");
+  for (const char* region : {"[5.9, 4.0, 35.0, 27.0]", "[6.0, 3.9, 35.0, 27.0]", "[6.0, 4.0, 35.1, 27.0]",
+                             "[6.0, 4.0, 35.0, 27.1]", "{ circle = [20.0, 20.0, 7.1] }"}) {
+    EXPECT_THAT(said(region), HasSubstr("disks.0.region: reaches beyond a side that moves")) << region;
+  }
+}
+
 // Two that vibrate against each other come to 10.5 - (2 + 3) - |2 + 3| of each other, to and fro together they do not.
 TEST(StartRegion, SidesThatVibrateTogetherAreAsFarApartAsTheyComeNear) {
   const auto scene = [](const char* right) {
@@ -138,6 +170,10 @@ TEST(StartRegion, ALatticeInACircleIsCentredAndAsWideAsItCanBe) {
   for (std::size_t k = 0; k < 7; ++k) {
     EXPECT_NEAR(std::hypot(seven[k].x, seven[k].y), k == 3 ? 0.0 : 2.0, 1e-11);
   }
+  // With more room they lie as far apart as it is wide, five on a square lattice likewise; nine reach sqrt(2) spacings.
+  EXPECT_NEAR(circle_sites({true, 3.0, 2.0}, 7).at(0).x, -1.5, 1e-9);
+  EXPECT_NEAR(circle_sites({false, 3.0, 2.0}, 5).at(0).y, -3.0, 1e-9);
+  EXPECT_NEAR(circle_sites({false, 3.0, 2.0}, 9).at(0).y, -3.0 / std::sqrt(2.0), 1e-9);
   EXPECT_TRUE(circle_sites({true, 2.0, 2.0}, 8).empty());
   EXPECT_EQ(circle_capacity({true, 2.0, 2.0}), 7U);
   EXPECT_EQ(circle_capacity({false, 2.0, 2.0}), 5U);
