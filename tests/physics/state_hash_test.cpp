@@ -42,6 +42,20 @@ TEST(StateHash, DependsOnEveryColumn) {
   EXPECT_NE(hash, state_hash(fewer));
 }
 
+// Of rough disks the spins count, too; those of smooth ones are no column.
+TEST(StateHash, DependsOnSpins) {
+  Disks disks = some_disks();
+  const std::uint64_t smooth = state_hash(disks);
+  disks.inertia = 0.5;
+  disks.spin = {0.0, 1.0, -2.0};
+  const std::uint64_t hash = state_hash(disks);
+  EXPECT_NE(hash, smooth);
+  disks.spin[1] = std::nextafter(1.0, 2.0);
+  EXPECT_NE(hash, state_hash(disks));
+  disks.spin = {-2.0, 1.0, 0.0};
+  EXPECT_NE(hash, state_hash(disks));
+}
+
 // Bit patterns count, so the two zeros differ: an engine that gives the other one is not the same.
 TEST(StateHash, MinusZeroDiffers) {
   Disks disks = some_disks();

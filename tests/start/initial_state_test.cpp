@@ -67,6 +67,14 @@ TEST(Sizes, WithoutDisksTheSourceSaysThem) {
   EXPECT_EQ(s.sources.size(), 1U);
   EXPECT_EQ(s.next_id, 0U);
   EXPECT_TRUE(initial_state(scene_with(group("1", "1", 0))).disks.empty());
+  // Fixed disks, which leave the others, say nothing of them.
+  const std::string pegs = "[[disks]]\nfixed = true\ncount = 2\npositions = [[1, 1], [9, 9]]\nradius = [1.0, 2.0]\n";
+  const State beside =
+      initial_state(scene_with(pegs + "[[sources]]\nside = \"left\"\nrate = 1\nradius = 0.5\nmass = 3.0"));
+  EXPECT_TRUE(beside.disks.empty() && beside.disks.radius.empty() && beside.disks.mass.empty());
+  EXPECT_EQ(beside.disks.common_radius, 0.5);
+  EXPECT_EQ(beside.disks.common_mass, 3.0);
+  EXPECT_EQ(beside.next_id, 2U) << "as ids are never given twice";
 }
 
 TEST(Sizes, UniformOnesLieInTheirRangeAndFillIt) {
