@@ -206,6 +206,10 @@ TEST(Growth, DisksLieWithinWallsToTheLastBit) {
     const double x = std::nextafter(p.x, outwards), y = std::nextafter(p.y, outwards);
     EXPECT_FALSE(within_sides(walls, x, p.y, 1.0)) << x;
     EXPECT_FALSE(within_sides(walls, p.x, y, 1.0)) << y;
+    Disks d = test::disks_of({{x, p.y, 0.0, 0.0, 1.0, 1.0}});
+    d.radius = {1.0};
+    EXPECT_TRUE(grow_step(d, walls, {1.0}).overlap);
+    EXPECT_TRUE(grow_by_cells(Executor(1), d, walls, {1.0}).overlap);
     EXPECT_TRUE(within_sides(test::box_of(8.0, 4.0, true, false), x, p.y, 1.0));
     EXPECT_TRUE(within_sides(test::box_of(8.0, 4.0, false, true), p.x, y, 1.0));
   }

@@ -8,7 +8,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/check.hpp"
 #include "core/disks/state_hash.hpp"
+#include "core/start/initial_velocities.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/other_units.hpp"
 #include "tests/support/scene_support.hpp"
@@ -165,6 +167,34 @@ TEST(Velocities, MaxwellIsNormal) {
   double fourth = 0.0;
   for (const double v : s.disks.vx) fourth += v * v * v * v / 16.0;
   EXPECT_NEAR(fourth / 20000.0, 3.0, 4 * std::sqrt(96.0 / 20000.0)) << "fourth moment of a normal deviate";
+}
+
+// Spins of a temperature: the mean of I w^2 is T (1 +- sqrt(2 / n)), I = q m r^2, whatever the disk; a list is taken as
+// it is.
+TEST(Spins, ThermalOnesGoByTheMomentOfInertia) {
+  const Scene scene = scene_with(group("1", "1"));
+  const double one = thermal_spin(scene, 2.0, 5, 0.5, 1.0, 1.0);
+  EXPECT_DOUBLE_EQ(thermal_spin(scene, 8.0, 5, 0.5, 1.0, 1.0), 2.0 * one);
+  EXPECT_DOUBLE_EQ(thermal_spin(scene, 2.0, 5, 0.5, 1.0, 4.0), 0.25 * one);
+  EXPECT_DOUBLE_EQ(thermal_spin(scene, 2.0, 5, 0.5, 4.0, 1.0), 0.5 * one);
+  EXPECT_DOUBLE_EQ(thermal_spin(scene, 2.0, 5, 0.125, 1.0, 1.0), 2.0 * one);
+  double sum = 0.0;
+  for (DiskId id = 0; id < 20000; ++id) {
+    const double w = thermal_spin(scene, 2.0, id, 0.5, 3.0, 0.7);
+    sum += 0.5 * 3.0 * 0.7 * 0.7 * w * w;
+  }
+  EXPECT_NEAR(sum / 20000.0, 2.0, 4.0 * 2.0 * std::sqrt(2.0 / 20000.0));
+  const Scene rough = scene_from(
+      "[box]\nwidth = 9\nheight = 9\n[physics]\nroughness = { tangential_restitution = 0.5 }\n" +
+      group("0.1", "1", 2, "spin = 7.0") + group("0.1", "1", 3, "spin = [1.0, -2.0, 3.0]") + "[run]\nt_end = 1\n");
+  EXPECT_THAT(initial_state(rough).disks.spin, ElementsAre(7.0, 7.0, 1.0, -2.0, 3.0));
+}
+
+TEST(Sizes, AListHasAnEntryADisk) {
+  Scene scene = scene_with(group("[1, 2]", "1", 2));
+  scene.groups[0].count = 3;
+  std::vector<double> radii, masses;
+  EXPECT_THROW(draw_sizes(scene, scene.groups[0], 0, radii, masses), InputError);
 }
 
 TEST(InitialState, SameSceneSameBits) {

@@ -61,6 +61,13 @@ TEST(SquareLattice, FillsASquareEvenly) {
   EXPECT_EQ(square_capacity(box_of(10, 10, true, true), 1.0), 100U);
 }
 
+// Fewer disks than sites: disk k is on site floor(k sites / disks), so that no end of the box is left empty.
+TEST(SquareLattice, SpreadsFewDisksOverAllSites) {
+  const Lattice nine{3, 3, 1.0, 1.0, 0.5, 0.5, 0.0};
+  const std::vector<Vec2> four = sites_of(nine, 4);
+  EXPECT_EQ(four, (std::vector<Vec2>{{0.5, 0.5}, {2.5, 0.5}, {1.5, 1.5}, {0.5, 2.5}})) << "sites 0, 2, 4, 6";
+}
+
 TEST(SquareLattice, CountsDiametersUpToRounding) {
   EXPECT_EQ(square_capacity(box_of(0.3, 0.3, false, false), 0.1), 9U) << "0.3 / 0.1 is below 3 in doubles";
 }

@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/start/open_cells.hpp"
 #include "tests/support/disks_by_hand.hpp"
@@ -145,6 +147,38 @@ TEST(RandomPlacement, AvoidsDisksOfOtherGroups) {
   }
 }
 
+// What the search has learnt of places for large disks is nothing to small ones: near the jamming of the large ones, at
+// 0.53, there is room for many.
+TEST(RandomPlacement, SmallDisksFindRoomWhereLargeOnesFindNone) {
+  const Scene scene = scene_from(box_text("width = 15.4\nheight = 15.4", true, true) + group("\"random\"", "0.5", 160) +
+                                 group("\"random\"", "0.05", 960));
+  const State state = initial_state(scene);
+  expect_apart(state, scene.box, 0.0);
+  // All over what is left: half of them, give or take, in either half of the box.
+  int left = 0;
+  for (std::size_t i = 160; i < 1120; ++i) left += state.disks.x[i] < 7.7 ? 1 : 0;
+  EXPECT_NEAR(left, 480, 120);
+}
+
+// A centre is a radius or more from every point of an inner wall: 400 disks around two that cross.
+TEST(RandomPlacement, KeepsClearOfInnerWalls) {
+  const Scene scene =
+      scene_from(box_text("width = 30\nheight = 30", true, false) + group("\"random\"", "0.5", 400) +
+                 "[[walls]]\nfrom = [3, 5]\nto = [27, 25]\n[[walls]]\nfrom = [4, 26]\nto = [26, 4]\nkind "
+                 "= \"sink\"\n");
+  const State state = initial_state(scene);
+  for (std::size_t i = 0; i < state.disks.size(); ++i) {
+    for (const auto& [from, to] :
+         {std::pair(Vec2{3.0, 5.0}, Vec2{27.0, 25.0}), std::pair(Vec2{4.0, 26.0}, Vec2{26.0, 4.0})}) {
+      for (int k = 0; k <= 3000; ++k) {
+        const double s = k / 3000.0;
+        const Vec2 p{from.x + s * (to.x - from.x), from.y + s * (to.y - from.y)};
+        ASSERT_GE(std::hypot(state.disks.x[i] - p.x, state.disks.y[i] - p.y), 0.5) << i;
+      }
+    }
+  }
+}
+
 TEST(RandomPlacement, OneHugeDiskAmongManySmallOnes) {
   const Scene scene = scene_from(box_text("width = 300\nheight = 300", true, false) + group("\"random\"", "0.3", 3000) +
                                  group("\"random\"", "70", 1));
@@ -184,6 +218,18 @@ TEST(ListedPlacement, TouchingInDecimalsIsNoOverlap) {
   EXPECT_THAT(test::complaint(box_text("width = 10\nheight = 0.2", false, false) +
                               group("[[1, 0.1], [1.1999999, 0.1]]", "0.1", 2)),
               HasSubstr("disks 0 and 1 overlap"));
+}
+
+// Far from the corner decimals are rounded by more than 1e-12 of a small radius.
+TEST(ListedPlacement, TouchingInDecimalsFarAwayIsNoOverlap) {
+  std::string places;
+  for (int k = 0; k < 40; ++k) places += fmt::format("[{}.{}, 5], ", 1000000 + k / 5, 2 * (k % 5) + 1);
+  EXPECT_EQ(
+      test::complaint(box_text("width = 2000000\nheight = 10", false, false) + group("[" + places + "]", "0.1", 40)),
+      "");
+  EXPECT_THAT(test::complaint(box_text("width = 2000000\nheight = 10", false, false) +
+                              group("[[1000000.1, 5], [1000000.29, 5]]", "0.1", 2)),
+              HasSubstr("disks 0 and 1 overlap by 0.01"));
 }
 
 TEST(ListedPlacement, UpperEndOfAPeriodicAxisIsTheLower) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/disks/state_hash.hpp"
@@ -154,6 +155,11 @@ TEST(StartRegion, ItHasNoEdgeWhereItSpansAPeriodicSide) {
   const Disks d = start_of(scene_with(group(400, "square", "region = [0.0, 0.0, 40.0, 10.0]\n") +
                                           group(300, "random", "region = [0.0, 10.0, 40.0, 30.0]\n"),
                                       all_periodic));
+  // Across the other two it has one: forty disks a row, 1 + floor((10 - 1) / (sqrt(3) / 2)) rows.
+  const Disks rows = start_of(scene_with(group(440, "hexagonal", "region = [0.0, 10.0, 40.0, 20.0]\n"), all_periodic));
+  const auto [low, high] = std::minmax_element(rows.y.begin(), rows.y.end());
+  EXPECT_GE(*low, 10.5 - 1e-12);
+  EXPECT_LE(*high, 19.5 + 1e-12);
   double least = 1.0;
   for (std::size_t i = 400; i < 700; ++i) least = std::min(least, d.x[i]);
   EXPECT_LT(least, 0.5) << "random disks lie across the side";
@@ -205,6 +211,12 @@ TEST(StartRegion, BadOnesAreNamedByLineAndKey) {
               HasSubstr("disks.0.region: beside positions that are given; expected"));
   EXPECT_THAT(region("random", "[2, 3, 7, 8]"), HasSubstr("disks.0.positions: \"random\" finds no room for disk"));
   EXPECT_THAT(region("random", "[2, 3, 7, 8]"), HasSubstr("in its region after"));
+  // Of k disks of radius 1/2 in a circle of radius 3: k / 36.
+  const std::string jammed = region("random", "{ circle = [10, 10, 3] }");
+  const std::size_t placed = jammed.find("trials; "), fraction = jammed.find("packing fraction ");
+  ASSERT_NE(placed, std::string::npos) << jammed;
+  ASSERT_NE(fraction, std::string::npos) << jammed;
+  EXPECT_NEAR(std::stod(jammed.substr(fraction + 17)), std::stod(jammed.substr(placed + 8)) / 36.0, 1e-4) << jammed;
   EXPECT_THAT(region("square", "[2, 3, 7, 8]"),
               HasSubstr("do not fit on a square lattice in the region of 5 x 5; expected at most 25"));
   EXPECT_THAT(region("hexagonal", "{ circle = [5, 5, 1.5] }"),
