@@ -1,0 +1,258 @@
+// Keys that are sound each and do not go together, at the bounds of what does, and a scene of many keys written out.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "core/scene/scene_text.hpp"
+#include "tests/support/scene_support.hpp"
+
+namespace carom {
+namespace {
+
+using test::complaint;
+using test::replaced;
+using test::scene_from;
+using test::sound_scene;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// A box of 20 x 10, three disks of radius 1 and mass 2 at rest.
+std::string scene_with(const std::string& box, const std::string& physics, const std::string& disks,
+                       const std::string& more, const std::string& run = "t_end = 10.0\n") {
+  return "[box]\nwidth = 20.0\nheight = 10.0\n" + box + "[physics]\n" + physics +
+         "[[disks]]\ncount = 3\npositions = [[2, 2], [5, 5], [8, 2]]\nradius = 1.0\nmass = 2.0\n" + disks + more +
+         "[run]\n" + run;
+}
+
+const std::string torus = "left = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\n";
+
+TEST(KeysTogether, SelectionSaysEveryWithAnOrdinal) {
+  const auto select = [](const std::string& text) {
+    return complaint(scene_with("", "", "", "[output]\ntrajectory = \"xyz\"\nselect = \"" + text + "\"\n"));
+  };
+  for (const char* fine : {"every 1st", "every 2nd", "every 3rd", "every 100th", "every 7"}) {
+    EXPECT_THAT(select(fine), IsEmpty()) << fine;
+  }
+  for (const char* bad : {"every 100x", "every 2nd disk", "every 1.5th", "every 0th", "every"}) {
+    EXPECT_THAT(select(bad), HasSubstr("output.select: is ")) << bad;
+  }
+}
+
+// The shell gives numbers without quotes: those of 64 bits, too, for a seed.
+TEST(KeysTogether, ASeedOf64BitsIsSetWithoutQuotes) {
+  EXPECT_EQ(scene_from(sound_scene, {{"seed", "18446744073709551615"}}).seed, 18446744073709551615U);
+  EXPECT_THAT(complaint(sound_scene, {{"seed", "18446744073709551616"}}), HasSubstr("--set seed: is"));
+}
+
+// [v, v] is sqrt(2) v fast: above the 1e60 of a speed where neither component is.
+TEST(KeysTogether, ASpeedIsThatOfBothComponents) {
+  const auto velocity = [](const std::string& v) {
+    return complaint(scene_with("", "", "velocities = [[0, 0], [" + v + "], [0, 0]]\n", "", "t_end = 0.0\n"));
+  };
+  EXPECT_THAT(velocity("0.7e60, 0.7e60"), Not(HasSubstr("has a speed of")));
+  EXPECT_THAT(velocity("0.8e60, 0.8e60"), HasSubstr("disks.0.velocities.1: is [8e+59, 8e+59]: it has a speed of 1.13"));
+}
+
+// g t^2 / 2 through periodic sides, where a fall never ends: 2^53 boxes of length 20 are 1.8e17. Between floor and
+// ceiling a fall is as long as the box, at sqrt(2 g height).
+TEST(KeysTogether, AFallThroughPeriodicSidesGoesOn) {
+  const auto fall = [](const std::string& sides, const char* g) {
+    return complaint(scene_with(sides, fmt::format("gravity = {}\n", g), "", "", "t_end = 1e9\n"));
+  };
+  EXPECT_THAT(fall(torus, "0.3"), IsEmpty());
+  EXPECT_THAT(fall(torus, "0.5"), HasSubstr("physics.gravity: is 0.5: a disk that falls crosses the box 1.25e+16"));
+  EXPECT_THAT(fall("", "0.5"), IsEmpty());
+}
+
+TEST(KeysTogether, KicksAreCounted) {
+  EXPECT_THAT(complaint(scene_with(
+                  "", "thermostat = { kind = \"langevin\", temperature = 1.0, rate = 1.0, dt = 1e-20 }\n", "", "")),
+              HasSubstr("physics.thermostat.dt: is 1e-20: 1e+21 kicks until run.t_end = 10"));
+}
+
+TEST(KeysTogether, SmoothDisksHaveNoSpin) {
+  const std::string source = "[[sources]]\nside = \"left\"\nrate = 1.0\nradius = 1.0\nmass = 2.0\n";
+  EXPECT_THAT(complaint(scene_with("", "", "", source + "spin = 2.0\n")),
+              HasSubstr("sources.0.spin: given without physics.roughness"));
+  EXPECT_THAT(complaint(scene_with("", "", "", source + "spin_temperature = 2.0\n")),
+              HasSubstr("sources.0.spin_temperature: given without physics.roughness"));
+}
+
+// 9 sqrt(T / (q m)) is a surface's largest speed: q = 1e-6 makes it a thousand times that of q = 1.
+TEST(KeysTogether, SurfacesHaveASpeedWithinItsRange) {
+  const auto said = [](const char* inertia, const std::string& source) {
+    return complaint(scene_with("",
+                                fmt::format("roughness = {{ tangential_restitution = 0.5, inertia = {} }}\n", inertia),
+                                source.empty() ? "spin_temperature = 1e115\n" : "", source, "t_end = 1e-30\n"));
+  };
+  EXPECT_THAT(said("1.0", ""), Not(HasSubstr("spin_temperature")));
+  EXPECT_THAT(said("1e-6", ""), HasSubstr("disks.0.spin_temperature: is 1e+115"));
+  const std::string hot =
+      "[[sources]]\nside = \"left\"\nrate = 1.0\nradius = 1.0\nmass = 2.0\nspin_temperature = 1e119\n";
+  EXPECT_THAT(said("1.0", hot), HasSubstr("sources.0.spin_temperature: is 1e+119: a surface has a speed of 2.01"));
+  EXPECT_THAT(said("0.01", replaced(hot, "1e119", "1e117")), HasSubstr("sources.0.spin_temperature: is 1e+117"));
+}
+
+// A sheared box is four diameters of the largest disk long both ways, and knows no TC model.
+TEST(KeysTogether, AShearedBoxHasRoomAndNoCollapse) {
+  const std::string text = scene_with(torus + "shear_rate = 0.1\n", "", "", "");
+  EXPECT_THAT(complaint(text), IsEmpty());
+  EXPECT_THAT(complaint(replaced(text, "height = 10.0", "height = 7.9")),
+              HasSubstr("box.shear_rate: given of a box of 20 x 7.9 with a disk of radius 1"));
+  EXPECT_THAT(complaint(replaced(text, "[physics]\n",
+                                 "[physics]\nrestitution = 0.9\ncollapse = { model = \"tc\", contact_time = 1e-6 }\n")),
+              HasSubstr("box.shear_rate: given beside physics.collapse"));
+}
+
+// Sides of two periods do not stay in step: they come as near as both come into the box.
+TEST(KeysTogether, SidesOfTwoPeriodsMeetInTheEnd) {
+  const auto said = [](const char* period) {
+    return complaint(scene_with(
+        fmt::format(
+            "left = {{ motion = {{ vibrate = [1.0, 0.0], period = 1.0 }}, place = 8.0 }}\nright = {{ motion = {{ "
+            "vibrate = [1.0, 0.0], period = {} }}, place = 11.0 }}\n",
+            period),
+        "", "", ""));
+  };
+  EXPECT_THAT(said("1.5"), HasSubstr("brings the left and right sides to 1 of each other"));
+  EXPECT_THAT(said("1.0"), Not(HasSubstr("brings the left and right sides")));
+}
+
+TEST(KeysTogether, WallsHaveALengthAndSinksNoRestitution) {
+  const std::string wall = "[[walls]]\nfrom = [12, 2]\nto = [14, 8]\n";
+  EXPECT_THAT(complaint(scene_with("", "", "", wall + "kind = \"sink\"\nrestitution = 0.5\n")),
+              HasSubstr("walls.0.restitution: given beside kind = \"sink\""));
+  EXPECT_THAT(complaint(scene_with("", "", "", replaced(wall, "[14, 8]", "[12, 2]"))),
+              HasSubstr("walls.0.to: comes to [12, 2] twice in a row"));
+  EXPECT_THAT(complaint(scene_with("", "", "", "[[walls]]\npoints = [[12, 2], [14, 8], [14, 8]]\n")),
+              HasSubstr("walls.0.points: comes to [14, 8] twice in a row"));
+}
+
+// Of sizes that are drawn the largest and the lightest count.
+TEST(KeysTogether, TheLargestOfAGroupHasToFit) {
+  const std::string text = replaced(scene_with("", "", "", ""), "radius = 1.0\nmass = 2.0",
+                                    "radius = [0.5, 6.0, 0.5]\nmass = { from_radius = 1.0 }");
+  EXPECT_THAT(complaint(text), HasSubstr("box.height: 10 is too small for a disk of radius 6"));
+}
+
+TEST(KeysTogether, BrownianDisksAndSinks) {
+  const std::string brownian = "diffusion = 0.1\n";
+  const std::string run = "t_end = 10.0\ndt = 0.01\n";
+  EXPECT_THAT(
+      complaint(scene_with("", brownian, "", "[[walls]]\nfrom = [12, 2]\nto = [14, 8]\nkind = \"sink\"\n", run)),
+      HasSubstr("walls.0.kind: a sink within the box beside Brownian motion"));
+  const std::string source = "[[sources]]\nside = \"left\"\nrate = 1.0\nradius = 1.0\nmass = 2.0\n";
+  EXPECT_THAT(complaint(scene_with("left = \"sink\"\n", brownian, "", source, run)),
+              HasSubstr("sources.0.side: left is a sink, which takes Brownian disks"));
+  EXPECT_THAT(complaint(scene_with("left = \"sink\"\n", brownian + "accumulate = true\n", "", source, run)), IsEmpty());
+}
+
+TEST(KeysTogether, AStartRegionHoldsWholeDisksBothWays) {
+  const auto region = [](const char* corners) {
+    return complaint(replaced(scene_with("", "", fmt::format("region = {}\n", corners), ""), "[[2, 2], [5, 5], [8, 2]]",
+                              "\"square\""));
+  };
+  EXPECT_THAT(region("[1, 1, 8, 3]"), IsEmpty());
+  EXPECT_THAT(region("[1, 1, 8, 2.9]"), HasSubstr("disks.0.region: is too small for a disk of radius 1"));
+  EXPECT_THAT(region("[1, 1, 2.9, 8]"), HasSubstr("disks.0.region: is too small for a disk of radius 1"));
+}
+
+// A side and a wall that both move steadily, one after the other: the side starts behind and is faster.
+TEST(KeysTogether, ASideMayNotOvertakeAWall) {
+  const auto said = [](const char* speed) {
+    return complaint(scene_with(fmt::format("left = {{ motion = {{ velocity = [{}, 0.0] }} }}\n", speed), "", "",
+                                "[[walls]]\nfrom = [11, 2]\nto = [11, 8]\nmotion = { velocity = [0.5, 0.0] }\n"));
+  };
+  EXPECT_THAT(said("1.55"), Not(HasSubstr("walls.0")));
+  EXPECT_THAT(said("1.7"), HasSubstr("walls.0.motion: the left side comes into the room that it moves through"));
+}
+
+// A side may come over a source's region as long as a part of it has room for a centre, a radius from the side.
+TEST(KeysTogether, ASideLeavesASourceRoom) {
+  const auto said = [](const char* speed) {
+    return complaint(scene_with(fmt::format("left = {{ motion = {{ velocity = [{}, 0.0] }} }}\n", speed), "", "",
+                                "[[sources]]\nregion = [6, 4, 12, 6]\nrate = 1.0\nradius = 1.0\nmass = 2.0\n"));
+  };
+  EXPECT_THAT(said("1.05"), IsEmpty());
+  EXPECT_THAT(said("1.15"), HasSubstr("sources.0.region: the left side leaves no place in it for the centre of a disk "
+                                      "of radius 1 from t = 9.56"));
+}
+
+// Every group draws its radii by the ids of its disks, from those of the groups before on.
+TEST(KeysTogether, PackingFractionCountsTheDisksThatAreDrawn) {
+  const std::string drawn =
+      "[[disks]]\ncount = 5\npositions = \"random\"\nradius = { uniform = [0.1, 1.0] }\nmass = 1.0\n";
+  const Scene scene = scene_from("[box]\npacking_fraction = 0.2\n" + drawn + drawn + "[run]\nt_end = 1.0\n");
+  const Disks disks = initial_state(scene).disks;
+  double area = 0.0;
+  for (std::size_t i = 0; i < disks.size(); ++i) area += 3.14159265358979 * disks.radius_of(i) * disks.radius_of(i);
+  EXPECT_NEAR(area / (scene.box.width * scene.box.height), 0.2, 1e-12);
+}
+
+// Fixed disks have no motion and stand in no frame: their name serves [[physics.pairs]] alone.
+TEST(KeysTogether, FixedDisksAreNotSelected) {
+  const auto select = [](const char* name) {
+    return complaint(scene_with("", "", "name = \"gas\"\n",
+                                fmt::format("[[disks]]\nname = \"pegs\"\nfixed = true\ncount = 1\npositions = [[15, "
+                                            "5]]\nradius = 1.0\n[output]\ntrajectory = \"xyz\"\nselect = \"{}\"\n",
+                                            name)));
+  };
+  EXPECT_THAT(select("gas"), IsEmpty());
+  EXPECT_THAT(select("pegs"), HasSubstr("output.select: unknown group \"pegs\""));
+}
+
+// A frame is asked for its velocities where the scene takes them, and no shear flow comes along: of vx = g (y - h / 2),
+// here 0.25 (y - 4), nothing is left.
+TEST(KeysTogether, FramesGiveVelocitiesWithoutTheirFlow) {
+  std::vector<bool> asked;
+  const FrameReader frames = [&](const FrameAsked& frame) -> SceneFrame {
+    asked.push_back(frame.velocities);
+    SceneFrame found{{{2.0, 2.0}, {5.0, 5.0}, {8.0, 2.0}}, {{1.0, 0.5}, {2.0, 0.0}, {-1.0, 0.0}}, {}, {}};
+    found.shear_rate = 0.25;
+    found.height = 8.0;
+    return found;
+  };
+  const std::string text =
+      replaced(scene_with(torus + "shear_rate = 0.1\n", "", "velocities = { frame = \"out\" }\n", ""),
+               "[[2, 2], [5, 5], [8, 2]]", "{ frame = \"out\" }");
+  const Scene scene = parse_scene(text, "gas.toml", "", {}, frames);
+  EXPECT_EQ(asked, (std::vector{false, true}));
+  EXPECT_EQ(scene.groups[0].velocities.list, (std::vector<Vec2>{{1.5, 0.5}, {1.75, 0.0}, {-0.5, 0.0}}));
+}
+
+// What is written out is the scene that was read: a run is resumed from it.
+TEST(KeysTogether, AResolvedSceneKeepsWhatTheyAre) {
+  const Scene scene = scene_from(
+      "[box]\nwidth = 20.0\nheight = 10.0\nwall_restitution = 0.5\nbottom = \"sink\"\nwall_roughness = { "
+      "tangential_restitution = 0.25, friction = 0.5 }\n"
+      "left = { restitution = 0.75 }\n"
+      "right = { motion = { velocity = [-0.1, 0.0] }, place = 19.0 }\n"
+      "top = { motion = { vibrate = [0.0, -0.5], period = 2.0, shape = \"sine\" } }\n"
+      "[physics]\nrestitution = { viscoelastic = 0.1, least = 0.4 }\nroughness = { tangential_restitution = 0.5 }\n"
+      "thermostat = { kind = \"andersen\", temperature = 2.0, rate = 0.5, dt = 0.125 }\n"
+      "[[disks]]\ncount = 2\npositions = [[4, 5], [8, 5]]\nradius = 1.0\nmass = 2.0\n"
+      "[[sources]]\nside = \"bottom\"\nrate = 1.0\nradius = 0.5\nmass = 2.0\nlimit = 7\n"
+      "[[walls]]\nfrom = [12, 4]\nto = [14, 6]\nkind = \"sink\"\n"
+      "[[walls]]\nfrom = [10, 3]\nto = [10, 5]\nrestitution = 0.875\n"
+      "[run]\nt_end = 10.0\n[output]\ntrajectory = \"h5md\"\ndimensions = 3\n");
+  const Scene again = scene_from(resolved_toml(scene));
+  EXPECT_EQ(again.box.sides, scene.box.sides);
+  EXPECT_EQ(again.box.restitutions, scene.box.restitutions);
+  EXPECT_EQ(again.box.motions, scene.box.motions);
+  EXPECT_EQ(again.side_places, scene.side_places);
+  EXPECT_EQ(again.physics.restitution, 0.4);
+  EXPECT_EQ(again.physics.law.viscosity, 0.1);
+  EXPECT_EQ(again.physics.surfaces.walls, scene.physics.surfaces.walls);
+  EXPECT_EQ(again.physics.thermostat.kind, Thermostat::Kind::andersen);
+  EXPECT_EQ(again.physics.thermostat.dt, 0.125);
+  EXPECT_EQ(again.sources.at(0).limit, 7U);
+  EXPECT_TRUE(again.walls.at(0).sink);
+  EXPECT_EQ(again.walls.at(1).restitution, 0.875);
+  EXPECT_EQ(again.output.dimensions, 3);
+}
+
+}  // namespace
+}  // namespace carom
