@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/load/scene_file.hpp"
@@ -68,6 +69,35 @@ TEST(Kick, KeepsMaxwellsDistribution) {
     const Kick kick = langevin_kick(x, 1.0);
     EXPECT_NEAR(kick.kept * kick.kept + kick.drawn * kick.drawn, 1.0, 1e-15);
     EXPECT_NEAR(kick.kept, std::exp(-x), x * x * x / 12.0 + 1e-15);
+  }
+}
+
+// In a shear the velocity relative to the flow is kept, vx = g (y - h / 2): a kick without noise halves it.
+TEST(Kick, IsRelativeToTheFlow) {
+  Scene scene = test::scene_of(Method::exact, 10.0, 8.0, 0.0, 1.0);
+  scene.box.sides.fill(SideKind::periodic);
+  scene.box.shear.rate = 0.5;
+  scene.physics.thermostat = {Thermostat::Kind::langevin, 1.0, 1.0, 0.1};
+  Disks d = test::disks_of({{2.0, 7.0, 4.0, 3.0, 1.0, 2.0}});
+  const double given = with_view(d, [&](const auto& view) {
+    return kick_disk(view, scene, {0.5, 0.0}, 0, {1.0, 1.0});
+  });
+  EXPECT_EQ(d.vx[0], 1.5 + 0.5 * (4.0 - 1.5));
+  EXPECT_EQ(d.vy[0], 1.5);
+  EXPECT_DOUBLE_EQ(given, 2.75 * 2.75 + 1.5 * 1.5 - (16.0 + 9.0)) << "in the laboratory, with a mass of 2";
+}
+
+// Kick k is due at k dt, and where rounding has brought the time of a step a little before that: 1e-12 of it.
+TEST(Kick, IsDueButForRounding) {
+  Scene scene = test::scene_of(Method::pairwise, 10.0, 8.0, 0.1, 10.0);
+  scene.physics.thermostat = {Thermostat::Kind::langevin, 1.0, 1.0, 0.3};
+  State state;
+  EXPECT_TRUE(is_kick_due(scene, state)) << "the first at 0";
+  state.intervals = 7;
+  for (const auto& [time, due] : {std::pair(2.1, true), std::pair(2.1 * (1.0 - 1e-14), true), std::pair(2.2, true),
+                                  std::pair(2.1 * (1.0 - 1e-11), false), std::pair(2.0, false)}) {
+    state.time = time;
+    EXPECT_EQ(is_kick_due(scene, state), due) << time;
   }
 }
 

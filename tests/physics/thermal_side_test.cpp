@@ -46,6 +46,42 @@ TEST(ThermalSide, DrawsMaxwellsFluxDistribution) {
   EXPECT_NEAR(product / n / (scale * scale), 0.0, 5.0 * std::sqrt(2.0) / root);
 }
 
+// The numbers of a draw, and those of a disk's next one, know nothing of each other: the means of products, and of
+// products of squares less the products of the means, are 0. In units of s, away^2 has mean 2 and variance 4, a normal
+// deviate's square 1 and 2, so the products deviate by sqrt(8 / n) and sqrt(2 2 / n) and less; five of them.
+TEST(ThermalSide, DrawsTheNumbersApart) {
+  constexpr DiskId n = 100'000;
+  double along_away = 0.0, along_more = 0.0, more_away = 0.0, sign = 0.0, next_along = 0.0, next_away = 0.0;
+  for (DiskId id = 0; id < n; ++id) {
+    const FluxVelocity v = flux_velocity(9, Stream::thermal_side, id, 3, 1.0);
+    const FluxVelocity w = flux_velocity(9, Stream::thermal_side, id, 4, 1.0);
+    along_away += (v.away * v.away - 2.0) * (v.along * v.along - 1.0);
+    more_away += (v.away * v.away - 2.0) * (v.more * v.more - 1.0);
+    along_more += (v.along * v.along - 1.0) * (v.more * v.more - 1.0);
+    sign += v.along * v.more;
+    next_along += v.along * w.along + v.more * w.along;
+    next_away +=
+        (v.along * v.along - 1.0) * (w.away * w.away - 2.0) + (v.away * v.away - 2.0) * (w.along * w.along - 1.0);
+  }
+  const double root = std::sqrt(static_cast<double>(n));
+  EXPECT_NEAR(along_away / n, 0.0, 5.0 * std::sqrt(8.0) / root);
+  EXPECT_NEAR(more_away / n, 0.0, 5.0 * std::sqrt(8.0) / root);
+  EXPECT_NEAR(along_more / n, 0.0, 5.0 * 2.0 / root);
+  EXPECT_NEAR(sign / n, 0.0, 5.0 / root);
+  EXPECT_NEAR(next_along / n, 0.0, 5.0 * std::sqrt(2.0) / root);
+  EXPECT_NEAR(next_away / n, 0.0, 5.0 * 4.0 / root);
+}
+
+// A rough side draws the spin: I w^2 = T n^2 with I = q m r^2, and gives the rotation what it has more than before.
+TEST(ThermalSide, DrawsTheSpinByTheMomentOfInertia) {
+  double spin = -2.0;
+  const double given = spin_thermally(0.5, 3.0, 4.0, 0.25, 1.5, spin);
+  const double inertia = 0.5 * 4.0 * 0.25 * 0.25;
+  EXPECT_DOUBLE_EQ(inertia * spin * spin, 3.0 * 1.5 * 1.5);
+  EXPECT_GT(spin, 0.0);
+  EXPECT_DOUBLE_EQ(given, 0.5 * 3.0 * 1.5 * 1.5 - 0.5 * inertia * 4.0);
+}
+
 // A wall of each direction sends the disk back into the box.
 TEST(ThermalSide, SendsADiskInward) {
   for (const Side side : all_sides) {
