@@ -342,6 +342,34 @@ TEST(Dissipation, IsThatOfDisksLawsWallsSurfacesAndObstacles) {
   EXPECT_TRUE(dissipates(pegs));
 }
 
+// A thermal side draws the spin where the walls are rough; beside smooth ones rough disks keep theirs.
+TEST(ThermalSide, DrawsTheSpinWhereWallsAreRough) {
+  for (const bool rough : {true, false}) {
+    const Surfaces surfaces{0.5, {0.5, HUGE_VAL}, rough ? Roughness{0.5, HUGE_VAL} : Roughness{}};
+    ExactRules rules;
+    rules.box = test::box_of(10.0, 10.0);
+    rules.box.temperatures.fill(3.0);
+    rules.surfaces = &surfaces;
+    ExactDisk a = disk_at(1.0, 5.0, -1.0, 0.0);
+    a.spin = 7.0;
+    EXPECT_TRUE(meet_side_at(rules, 0.0, Side::left, a).happened);
+    EXPECT_EQ(a.spin != 7.0, rough);
+  }
+}
+
+// An inner wall, of its own restitution, goes by no law of the disk that has its number; a fixed disk does.
+TEST(Dissipation, OfAnInnerWallIsItsOwn) {
+  const RestitutionLaw law{0.0, {1, 2}, {{0, 1, {0.5, 0.0}}}};
+  for (const auto kind : {ObstacleKind::wall, ObstacleKind::disk}) {
+    ExactRules rules;
+    rules.box = test::box_of(10.0, 10.0);
+    rules.law = &law;
+    const bool wall = kind == ObstacleKind::wall;
+    const auto cells = place_obstacles({{5.0, 5.0, wall ? 2.0 : 0.0, 0.0, wall ? 0.0 : 1.0, 1.0, 0, kind}}, rules.box);
+    EXPECT_EQ(may_lose_energy(rules, 1, obstacle_partner(0)), !wall);
+  }
+}
+
 // 257 impacts that lose energy within 1e-12 of a window are a collapse; as many over twice that time are none.
 TEST(Burst, IsOfMoreThan256ImpactsInAVanishingTime) {
   const double window = 8.0;

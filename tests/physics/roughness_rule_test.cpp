@@ -139,6 +139,17 @@ bool same_bits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
+// Without a limit a contact sticks however lightly it is pressed: (1 + b) q / (1 + q) of the slip turns round. With one
+// that is not pressed at all slides freely.
+TEST(Rub, SticksWithoutBeingPressed) {
+  for (const double pressed : {0.0, 1e-300, 1.0}) {
+    EXPECT_DOUBLE_EQ(rub({0.5, HUGE_VAL}, 0.5, 2.0, pressed), -1.0) << pressed;
+  }
+  EXPECT_EQ(rub({0.5, 0.3}, 0.5, 2.0, 0.0), 0.0);
+  EXPECT_DOUBLE_EQ(rub({0.5, 0.3}, 0.5, 2.0, 1.0), -0.3);
+  EXPECT_DOUBLE_EQ(rub({0.5, 0.3}, 0.5, -2.0, 1.0), 0.3);
+}
+
 // Smooth by b = -1 or by mu = 0: velocities have the bits of the rule without roughness, zeros their signs.
 TEST(RoughPair, SmoothSurfacesChangeNoBit) {
   test::Draws draws(4);
