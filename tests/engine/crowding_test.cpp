@@ -34,6 +34,15 @@ Disks placed(std::size_t n, Place&& place) {
   return d;
 }
 
+// By hand: 64 disks share one of four cells, more than 40 others each, so there are sixteen; in each of two of these 32
+// disks have 31 others, where 64 in the whole box would have 4.
+TEST(Crowding, CountsTheOthersOfADisk) {
+  const Disks d = placed(64, [](std::size_t i) {
+    return Vec2{i % 2 == 0 ? 5.0 : 15.0, 2.0 + 0.1 * static_cast<double>(i)};
+  });
+  EXPECT_EQ(crowding(d, box_of(40.0, 40.0), d.size()), 31.0 / 4.0);
+}
+
 TEST(Crowding, AGasThatFillsTheBoxIsNotCrowded) {
   for (const std::size_t n : {std::size_t{41}, std::size_t{300}, std::size_t{2000}, std::size_t{100'000}}) {
     for (const double aspect : {1.0, 100.0, 0.01, 1e6, 1e-6, 1e9}) {
