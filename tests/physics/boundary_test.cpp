@@ -127,5 +127,34 @@ TEST(WrapCoordinate, HalfOpenInterval) {
   }
 }
 
+// The images above are offset to the right: what leaves through the top comes back that far to the left, a box lower.
+// What is below 0 by less than the height can tell is at 0, and has crossed nothing.
+TEST(WrapSheared, MovesAlongByTheOffset) {
+  const Domain box = box_of(20.0, 10.0, true, true);
+  const auto expect = [&](Vec2 from, Vec2 to, int rows) {
+    EXPECT_EQ(wrap_sheared(from.x, from.y, 3.0, box), rows) << from.y << " to " << to.y;
+    EXPECT_EQ(from, to);
+  };
+  expect({5.0, 10.5}, {2.0, 0.5}, -1);
+  expect({5.0, 10.0}, {2.0, 0.0}, -1);
+  expect({5.0, -0.5}, {8.0, 9.5}, 1);
+  expect({19.0, -0.5}, {2.0, 9.5}, 1);
+  expect({5.0, -1e-20}, {5.0, 0.0}, 0);
+  expect({-1.0, 4.0}, {19.0, 4.0}, 0);
+}
+
+// wall_restitution is that of sides which are no walls, too, where nothing bounces.
+TEST(Walls, DissipateWhereSidesAreWalls) {
+  Domain box = box_of(10.0, 10.0, true, true);
+  box.restitutions.fill(0.5);
+  EXPECT_FALSE(box.walls_dissipate());
+  box.sides[static_cast<std::size_t>(Side::top)] = SideKind::sink;
+  EXPECT_FALSE(box.walls_dissipate());
+  box.sides[static_cast<std::size_t>(Side::top)] = SideKind::wall;
+  EXPECT_TRUE(box.walls_dissipate());
+  box.restitutions[static_cast<std::size_t>(Side::top)] = 1.0;
+  EXPECT_FALSE(box.walls_dissipate());
+}
+
 }  // namespace
 }  // namespace carom

@@ -3,7 +3,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
+#include "core/physics/parting.hpp"
 #include "core/physics/resolve.hpp"
 #include "tests/support/disks_by_hand.hpp"
 #include "tests/support/draws.hpp"
@@ -34,6 +36,28 @@ TEST(GrazingPair, IsResolvedWhereItIs) {
     });
   }
   EXPECT_GT(missed, 0) << "the case that this test is about";
+}
+
+// Velocities are changed where both paths begin at the contact, by rounding, and nowhere else.
+TEST(Parting, IsOfPathsThatBothBeginAtTheContact) {
+  for (const auto& [p, q, both] : {std::tuple(1.0, 1.0, true), std::tuple(0.5, 1.0, false), std::tuple(1.0, 0.5, false),
+                                   std::tuple(0.5, 0.5, false)}) {
+    EXPECT_EQ(both_begin_at(1.0, {p, 0.0, 0.0, 0.0, 0.0}, {q, 0.0, 0.0, 0.0, 0.0}), both) << p << " " << q;
+  }
+}
+
+// Across the top of a sheared box the second disk's image moves at the jump, -1: along x it approaches at 1/2 although
+// the velocities part at 1/2. It parts by the least that does it, shared by mass; no momentum comes of it.
+TEST(Parting, CountsTheJumpOfAShear) {
+  PathSegment p{0.0, 0.0, 0.0, 1.0, 0.0}, q{0.0, 1.0, 0.0, 1.5, 0.0};
+  const Relative r{1.0, 0.0, -0.5, 0.0};
+  part_disks(r, shares(3.0, 1.0), -1.0, p, q);
+  EXPECT_EQ(q.vx - p.vx - 1.0, 0.0);
+  EXPECT_EQ(p.vx, 1.0 - 0.25 * 0.5);
+  EXPECT_EQ(3.0 * p.vx + q.vx, 4.5);
+  const PathSegment before = p;
+  part_disks(r, shares(3.0, 1.0), -1.0, p, q);
+  EXPECT_EQ(p.vx, before.vx) << "they do not approach any more";
 }
 
 }  // namespace
