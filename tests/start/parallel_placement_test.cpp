@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "core/disks/state_hash.hpp"
 #include "core/start/initial_state.hpp"
 #include "parallel/start/random_placement.hpp"
 #include "tests/support/scene_support.hpp"
@@ -62,6 +63,15 @@ TEST(ParallelPlacement, SameBitsAsThePlainSearch) {
       EXPECT_EQ(state.disks.y, expected.disks.y) << c.name << ", " << threads;
     }
   }
+}
+
+// So many that the list of free places, at most four a disk, is refined in place, a quarter of a million at a time.
+TEST(LongParallelPlacement, SameBitsWhereTheListIsRefinedInParts) {
+  const Scene scene = scene_from(scene_text(
+      periodic, "packing_fraction = 0.53\n[[disks]]\ncount = 100000\npositions = \"random\"\nradius = 1\nmass = 1"));
+  const State expected = initial_state(scene);
+  const State state = placed_in_parallel(scene, 2, 1);
+  EXPECT_EQ(state_hash(state.disks), state_hash(expected.disks));
 }
 
 TEST(ParallelPlacement, JammedScenesEndWithTheSameMessage) {
