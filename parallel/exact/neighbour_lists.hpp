@@ -135,8 +135,8 @@ class NeighbourLists {
                               const Gravity& gravity, const RelistDistance& relist) const;
 
   // The same where neither gravity nor a shear acts, and without an end.
-  [[gnu::noinline]] double relist_time_straight(std::uint32_t i, const PathSegment& path, double from,
-                                                const RelistDistance& relist) const {
+  [[gnu::noinline, gnu::hot]] double relist_time_straight(std::uint32_t i, const PathSegment& path, double from,
+                                                          const RelistDistance& relist) const {
     const double s = from - path.start;
     const Vec2 listed = listed_position(i);
     Vec2 d{path.x + path.vx * s - listed.x, path.y + path.vy * s - listed.y};
@@ -268,7 +268,7 @@ class NeighbourLists {
   }
   // From its listed position to where a straight path has come at time `until`, from the image of that position that
   // is the nearest one at time `from`: it may have flown round the box meanwhile, to another one.
-  Vec2 offset_until(const PathSegment& path, Vec2 listed, double from, double until) const {
+  [[gnu::hot]] Vec2 offset_until(const PathSegment& path, Vec2 listed, double from, double until) const {
     const double s = from - path.start;
     const Vec2 d = listed_box_.nearest_image_of({path.x + path.vx * s - listed.x, path.y + path.vy * s - listed.y});
     return {d.x + path.vx * (until - from), d.y + path.vy * (until - from)};

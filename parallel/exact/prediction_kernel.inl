@@ -301,13 +301,17 @@ template <Bend bend>
   return f.eighth_gravity * (s * s);
 }
 
-// Less than 0 where a path that takes a time s and goes this way may come round the box from one image of the disk's
-// listed position to another.
+// Less than 0 where a path that takes a time s may come round the box from one image of the disk's listed position to
+// another.
 template <Bend bend>
-[[gnu::always_inline]] inline double way_left_round(const PredictionConstants& f, const PathSegment& path, double s,
-                                                    Coordinates way) {
+[[gnu::always_inline]] inline double way_left_round(const PredictionConstants& f, const PathSegment& path, double s) {
+  if constexpr (bend == Bend::none) {
+    const Coordinates way = Coordinates{path.vx, path.vy} * Coordinates{s, s};
+    const Coordinates way2 = way * way;
+    return f.to_other_image2 - (way2[0] + way2[1]);
+  }
+  const Coordinates way = place_after<bend>(f, path, s) - place_after<bend>(f, path, 0.0);
   const Coordinates way2 = way * way;
-  if constexpr (bend == Bend::none) return f.to_other_image2 - (way2[0] + way2[1]);
   // Of a part of the path, too.
   const double straight = f.to_other_image - bent_by<bend>(f, path, s);
   const double left = straight * straight - (way2[0] + way2[1]);
@@ -322,18 +326,17 @@ template <Bend bend, Images images>
                                                         const FixedPointPosition& listed_at, double until) {
   const double s = until - path.start;
   const Coordinates listed = to_doubles(f, listed_at) * load(f.listed_unit);
-  const Coordinates start = place_after<bend>(f, path, 0.0), end = place_after<bend>(f, path, s);
-  const double end2 = distance2_from_listed<images>(f, end, listed);
+  const double end2 = distance2_from_listed<images>(f, place_after<bend>(f, path, s), listed);
   // The sign of what is left.
   double left = f.stay2 - end2;
   if constexpr (bend != Bend::none) {
-    const double start2 = distance2_from_listed<images>(f, start, listed);
+    const double start2 = distance2_from_listed<images>(f, place_after<bend>(f, path, 0.0), listed);
     const double room = f.stay - bent_by<bend>(f, path, s);
     const double inside = room * room - (end2 > start2 ? end2 : start2);
     left = room < inside ? room : inside;
   }
   if constexpr (images != Images::none) {
-    const double round = way_left_round<bend>(f, path, s, end - start);
+    const double round = way_left_round<bend>(f, path, s);
     left = round < left ? round : left;
   }
 #if defined(__AVX__)

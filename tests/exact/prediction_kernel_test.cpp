@@ -114,12 +114,12 @@ void expect_in_row(RowKernel kernel, const PredictionConstants& constants, const
   // Of bent paths: bent_paths_test.
   if (!(found.time < never) || constants.down.lane[0] != 0.0 || constants.left.lane[0] != 0.0) return;
   const PathSegment& p = record[own].path;
-  const double x = p.x + p.vx * (found.time - p.start), y = p.y + p.vy * (found.time - p.start);
-  double dx = x - listed_at.x * constants.listed_unit.x;
-  double dy = y - listed_at.y * constants.listed_unit.y;
+  const double way_x = p.vx * (found.time - p.start), way_y = p.vy * (found.time - p.start);
+  double dx = p.x + way_x - listed_at.x * constants.listed_unit.x;
+  double dy = p.y + way_y - listed_at.y * constants.listed_unit.y;
   dx -= constants.period.x * std::nearbyint(dx * constants.periods_per_length.x);
   dy -= constants.period.y * std::nearbyint(dy * constants.periods_per_length.y);
-  const bool may_go_round = constants.to_other_image2 - ((x - p.x) * (x - p.x) + (y - p.y) * (y - p.y)) < 0.0;
+  const bool may_go_round = constants.to_other_image2 - (way_x * way_x + way_y * way_y) < 0.0;
   ASSERT_EQ(found.leaves_list(), constants.stay2 - (dx * dx + dy * dy) < 0.0 || may_go_round);
 }
 
