@@ -56,7 +56,8 @@ std::vector<GasFeature> gas_features() {
        ""},
       {"shear", periodic + "shear_rate = 0.0001\n", ""},
       feature("fixed_disks", ""),
-      feature("inner_walls", "")};
+      feature("inner_walls", ""),
+      feature("moving_inner_walls", "")};
   const auto named = [&](const char* name) -> GasFeature& {
     return *std::find_if(all.begin(), all.end(), [&](const GasFeature& f) { return f.name == name; });
   };
@@ -65,6 +66,7 @@ std::vector<GasFeature> gas_features() {
   named("masses").mass = "{ uniform = [0.5, 1.5] }";
   named("fixed_disks").obstacles = "[[disks]]\nfixed = true\ncount = 1000\nradius = 0.2\npositions = [{}]\n";
   named("inner_walls").obstacles = "[[walls]]\npoints = [{}]\n";
+  named("moving_inner_walls").obstacles = "[[walls]]\npoints = [{}]\nmotion = {{ velocity = [0.1, 0.0] }}\n";
   return all;
 }
 
