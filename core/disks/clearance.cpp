@@ -137,36 +137,34 @@ void Clearance::see(const Extent& extent, Distance&& distance, std::vector<doubl
 // around each, and so on.
 std::vector<std::uint8_t> Clearance::rings_around(const std::vector<double>& nearest) const {
   constexpr std::uint8_t furthest = 255;
-  struct Cell {
-    std::int64_t column, row;
-  };
   std::vector<std::uint8_t> rings(nearest.size(), furthest);
-  std::vector<Cell> reached;
-  for (std::int64_t row = 0; row < y_.cells; ++row) {
-    for (std::int64_t column = 0; column < x_.cells; ++column) {
-      const auto cell = static_cast<std::size_t>(row * x_.cells + column);
-      if (nearest[cell] * share > half_diagonal_) continue;
-      rings[cell] = 0;
-      reached.push_back({column, row});
-    }
+  std::vector<std::size_t> reached;
+  reached.reserve(nearest.size());
+  for (std::size_t cell = 0; cell < nearest.size(); ++cell) {
+    if (nearest[cell] * share > half_diagonal_) continue;
+    rings[cell] = 0;
+    reached.push_back(cell);
   }
-  // The cell before and after, across a periodic side; itself where there is none.
-  const auto next_to = [](std::int64_t k, std::int64_t step, const CellAxis& axis) {
-    const std::int64_t to = k + step;
-    if (to >= 0 && to < axis.cells) return to;
-    return axis.periodic ? axis.in_box(to) : k;
+  const auto columns = static_cast<std::size_t>(x_.cells), rows = static_cast<std::size_t>(y_.cells);
+  // By how much an index changes to that of the cell before, along an axis of so many cells, or across its periodic
+  // side; to itself where there is none. Likewise of the cell after.
+  const auto before = [](std::size_t k, std::size_t cells, bool periodic, std::size_t apart) {
+    return k > 0 ? std::size_t{0} - apart : periodic ? (cells - 1) * apart : 0;
+  };
+  const auto after = [](std::size_t k, std::size_t cells, bool periodic, std::size_t apart) {
+    return k + 1 < cells ? apart : periodic ? std::size_t{0} - (cells - 1) * apart : 0;
   };
   for (std::size_t next = 0; next < reached.size(); ++next) {
-    const Cell from = reached[next];
-    const std::uint8_t away = rings[static_cast<std::size_t>(from.row * x_.cells + from.column)];
+    const std::size_t from = reached[next], row = from / columns, column = from - row * columns;
+    const std::uint8_t away = rings[from];
     if (away + 1 >= furthest) break;
-    for (const std::int64_t row : {next_to(from.row, -1, y_), from.row, next_to(from.row, 1, y_)}) {
-      for (const std::int64_t column : {next_to(from.column, -1, x_), from.column, next_to(from.column, 1, x_)}) {
-        std::uint8_t& there = rings[static_cast<std::size_t>(row * x_.cells + column)];
-        if (there != furthest) continue;
-        there = static_cast<std::uint8_t>(away + 1);
-        reached.push_back({column, row});
-      }
+    const std::size_t down = before(row, rows, y_.periodic, columns), up = after(row, rows, y_.periodic, columns);
+    const std::size_t left = before(column, columns, x_.periodic, 1), right = after(column, columns, x_.periodic, 1);
+    for (const std::size_t there : {from + down + left, from + down, from + down + right, from + left, from + right,
+                                    from + up + left, from + up, from + up + right}) {
+      if (rings[there] != furthest) continue;
+      rings[there] = static_cast<std::uint8_t>(away + 1);
+      reached.push_back(there);
     }
   }
   return rings;

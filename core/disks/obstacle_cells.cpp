@@ -20,10 +20,10 @@ std::int64_t cells_for(double length, double cell, std::size_t obstacles) {
 constexpr std::size_t least_at_rest = 128;
 // Likewise of those that move, whose cells are made for each step.
 constexpr std::size_t least_moving = 16;
-// The cells of how far obstacles are: so many an obstacle, each an eighth of their mean spacing long; so many for
-// each of the squares that the outline of all of them goes along, such that a ninth of a box with long walls is no more
-// than two cells from them; and so many in all at least and at most, as each has one byte.
-constexpr double clearance_cells = 64.0;
+// The cells of how far obstacles are: so many an obstacle, each an eleventh of their mean spacing long; of walls that are
+// long beside that, so many for each of the squares that both their sides go along, such that a ninth of the box is no
+// more than two cells from them; and so many in all at least and at most, as each has one byte.
+constexpr double clearance_cells = 128.0;
 constexpr double clearance_cells_along = 256.0;
 constexpr double least_clearance_cells = 4096.0;
 constexpr double most_clearance_cells = 4194304.0;
@@ -31,10 +31,9 @@ constexpr double most_clearance_cells = 4194304.0;
 constexpr std::size_t swept_cells = 2;
 
 std::size_t clearance_cells_for(const std::vector<Clearance::Shape>& shapes, const Domain& box) {
-  constexpr double pi = 3.14159265358979323846;
-  double outline = 0.0;  // length
-  for (const Clearance::Shape& s : shapes) outline += 2.0 * std::hypot(s.along.x, s.along.y) + 2.0 * pi * s.radius;
-  const double along = clearance_cells_along * (outline / box.width) * (outline / box.height);
+  double sides = 0.0;  // length
+  for (const Clearance::Shape& s : shapes) sides += 2.0 * std::hypot(s.along.x, s.along.y);
+  const double along = clearance_cells_along * (sides / box.width) * (sides / box.height);
   const double wanted = std::max(clearance_cells * static_cast<double>(shapes.size()), along);
   return static_cast<std::size_t>(std::clamp(wanted, least_clearance_cells, most_clearance_cells));
 }
