@@ -25,7 +25,7 @@ inline constexpr double brownian_interval = 0.1;
 // CPU seconds on one thread of the machine in docs/chart.json, 1000 disks; from the costs in docs/chart.csv.
 inline constexpr double pairwise_step = 4.9e-9;        // a disk and step
 inline constexpr double pile_step = 0.4e-6;            // more for a disk and step of pairwise in a pile
-inline constexpr double obstacle_step = 60e-9;         // more for a disk and step beside inner walls or fixed disks
+inline constexpr double obstacle_step = 20e-9;         // more for a disk and step beside inner walls or fixed disks
 inline constexpr double pairwise_collision = 0.18e-6;  // a collision
 inline constexpr double exact_collision = 0.14e-6;     // a collision, where disks are crowded
 inline constexpr double exact_flight = 0.06e-6;        // more for each, over the packing fraction: the longer way to it
