@@ -72,8 +72,10 @@ class RollbackPhases : public TimeStepping {
     });
     for (const ImpactTally& t : lists_.tallies) tally.add(t);
     for (const Overlap& deepest : deepest_) figures.wall.see(deepest);
-    // A ceiling sends a disk down faster than it came, and a hot side, or one that moves, may send any.
-    if (rules.gravity.acts() || rules.box.has_thermal_side() || rules.box.has_moving_wall()) forget_speeds();
+    // A ceiling sends a disk down faster than it came, a rough wall one that spins, and a hot side, or one that moves,
+    // may send any.
+    const bool rough = rules.surfaces != nullptr;
+    if (rough || rules.gravity.acts() || rules.box.has_thermal_side() || rules.box.has_moving_wall()) forget_speeds();
   }
 
  private:

@@ -1,5 +1,7 @@
 // F1 and F2 of docs/original.md, which belong to the method `rollback`, are shown; and the guard that stops a stalled
 // run.
+#include "parallel/stepping/rollback.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +9,10 @@
 #include <numbers>
 
 #include "core/base/check.hpp"
+#include "core/disks/state_hash.hpp"
+#include "core/load/scene_file.hpp"
+#include "core/reference/reference_rollback.hpp"
+#include "core/start/initial_state.hpp"
 #include "core/step/rollback_frame.hpp"
 #include "tests/support/disks_by_hand.hpp"
 #include "tests/support/draws.hpp"
@@ -132,6 +138,38 @@ TEST(StallGuard, StopsARunWhoseTimeStandsStill) {
     EXPECT_NE(text.find("run.method = \"pairwise\""), std::string::npos) << text;
     EXPECT_EQ(text.find('\n'), std::string::npos);
   }
+}
+
+// A rough wall makes speed of spin: the next frame is split by the speed that the disk has then, in both engines.
+TEST(Rollback, ADiskThatARoughWallSetsGoingIsSeenToBeFast) {
+  Scene scene = parse_scene(R"([box]
+width = 20
+height = 20
+wall_roughness = { tangential_restitution = 0.5 }
+[physics]
+roughness = { tangential_restitution = 0.5 }
+[[disks]]
+count = 1
+positions = [[5, 0.55]]
+velocities = [[0, -1]]
+spin = 40
+radius = 0.5
+mass = 1
+[run]
+method = "rollback"
+dt = 0.1
+t_end = 1
+)",
+                            "test", "");
+  const auto reference = make_reference_rollback(scene, initial_state(scene));
+  const auto parallel = make_parallel_rollback(scene, initial_state(scene), {1});
+  for (int frame = 0; frame < 4; ++frame) {
+    reference->step();
+    parallel->step();
+    EXPECT_EQ(parallel->state().time, reference->state().time) << frame;
+    EXPECT_EQ(state_hash(parallel->state().disks), state_hash(reference->state().disks)) << frame;
+  }
+  EXPECT_LT(reference->state().time, 0.3) << "no frame was split";
 }
 
 TEST(StallGuard, LetsASlowRunGoOn) {
