@@ -174,6 +174,13 @@ inline PairImpact collide_at(const ExactRules& rules, double s, ExactDisk& a, Ex
 // pile costs: were it given only to disks at rest, a pile would cool further and have four times as many collisions.
 inline constexpr double least_hop = 0.25;
 
+// The share of a wall's acceleration that counts in a hop: one that vibrates presses a disk for half a period at most,
+// which may be shorter than a contact. towards: the acceleration towards the disk.
+inline double hop_share(const ExactRules& rules, const SideMotion& motion, double towards) {
+  const bool turns = rules.tc() && motion.vibrates() && towards > 0.0;
+  return turns ? std::min(1.0, motion.half() / rules.contact_time) : 1.0;
+}
+
 // Disk a is at a thermal side at time s.
 inline WallImpact meet_thermal_side(const ExactRules& rules, double s, Side side, ExactDisk& a) {
   PathSegment& p = a.path;
@@ -205,8 +212,12 @@ inline WallImpact meet_moving_side(const ExactRules& rules, double s, Side side,
   const bool loses = rules.box.restitution(side) < 1.0 || rubs_away(rules, Touching::wall);
   WallImpact outcome{.happened = true, .inaccurate = elastic && loses, .lost_energy = !elastic && loses};
   const double leaving = approach > 0.0 ? e * approach : -approach;
-  const double hop =
-      rules.tc() ? least_hop * approach_acceleration(side, rules.gravity, place) * rules.contact_time : 0.0;
+  double hop = 0.0;
+  if (rules.tc()) {
+    SidePlace pressing = place;
+    pressing.acceleration *= hop_share(rules, rules.box.motions[static_cast<std::size_t>(side)], place.acceleration);
+    hop = least_hop * approach_acceleration(side, rules.gravity, pressing) * rules.contact_time;
+  }
   const double away = std::max(leaving, hop);
   if (approach > 0.0 || away > leaving) {
     const double kick = rebound(side, place, approach, away, p.vx, p.vy);
@@ -302,11 +313,14 @@ inline WallImpact bounce_off_obstacle(const ExactRules& rules, double s, const O
   PathSegment& p = a.path;
   const PlacedObstacle now = placed(o, rules.box, s);
   const Vec2 wall = now.place.velocity;
-  const Gravity felt(rules.gravity.left + now.place.acceleration.x, rules.gravity.down + now.place.acceleration.y);
   const Vec2 before{p.vx, p.vy};
   p.vx -= wall.x;
   p.vy -= wall.y;
   const ShortestLine shortest = shortest_line_wound(now.obstacle, p.x, p.y, rules.box);
+  const double towards = now.place.acceleration.x * shortest.line.x + now.place.acceleration.y * shortest.line.y;
+  const double share = hop_share(rules, rules.box.obstacles->motion_of(o).pace, towards);
+  const Gravity felt(rules.gravity.left + share * now.place.acceleration.x,
+                     rules.gravity.down + share * now.place.acceleration.y);
   WallImpact impact = bounce_off_obstacle(rules, s, now.obstacle, shortest, felt, a);
   if (!impact.happened) {
     p.vx = before.x;

@@ -173,6 +173,11 @@ TEST(TcHop, OffAFloorThatAccelerates) {
   EXPECT_DOUBLE_EQ(rests.path.vy, floor.speed + hop);
   EXPECT_DOUBLE_EQ(impact.impulse, 2.0 * hop);
   EXPECT_DOUBLE_EQ(impact.energy, 2.0 * hop * floor.speed);
+  // Contacts that are longer than the half period of 2 for which it accelerates make no longer hops.
+  rules.contact_time = 100.0;
+  ExactDisk at_rest = disk_at(5.0, 1.0 + floor.inset, 0.0, floor.speed);
+  meet_side_at(rules, 0.0, Side::bottom, at_rest);
+  EXPECT_DOUBLE_EQ(at_rest.path.vy, floor.speed + 0.25 * (0.8 * 100.0 + 0.5 * 2.0));
   // A floor that gives way faster than disks fall is left alone.
   rules.gravity = 0.2;
   rules.box.move_walls(2.5);
@@ -314,6 +319,13 @@ TEST_F(TcObstacle, ThatAcceleratesIsLeftWithAHigherHop) {
   EXPECT_NEAR(impact.impulse, 2.0 * hop, 1e-14);
   EXPECT_NEAR(impact.momentum.x, -0.6 * 2.0 * hop, 1e-14);
   EXPECT_NEAR(impact.momentum.y, 0.8 * 2.0 * hop, 1e-14);
+  // It does so for the half period of 2 at most, however long contacts are.
+  rules.contact_time = 100.0;
+  const double longer =
+      0.25 * ((0.3 * -0.6 + 0.8 * 0.8) * 100.0 + (now.acceleration.x * -0.6 + now.acceleration.y * 0.8) * 2.0);
+  ExactDisk b = disk_at(5.0 - 0.6 + now.shift.x, 5.0 + 0.8 + now.shift.y, now.velocity.x, now.velocity.y);
+  meet_obstacle_at(rules, 0.0, 0, b);
+  EXPECT_NEAR(b.path.vy, now.velocity.y + 0.8 * longer, 1e-12);
 }
 
 // A sum of reasons, each of which is enough.
