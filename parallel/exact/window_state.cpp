@@ -42,7 +42,7 @@ void WindowState::begin(const ExactRules& window_rules, const Disks& all, const 
   fastest2 = fastest_speed2;
   largest_radius = radius;
   depth_beyond_borders.store(0.0, std::memory_order_relaxed);
-  set_tolerances();
+  set_tolerances(plan.start);
   resize_column(entry, all.size() + std::max<std::size_t>(regions, 1) * entries_apart);
   // Its contents are written anew: it is freed before it grows, so that there are never two of this column, the
   // largest.
@@ -52,12 +52,21 @@ void WindowState::begin(const ExactRules& window_rules, const Disks& all, const 
   spin = all.spin;
 }
 
-void WindowState::set_tolerances() {
+// Largest speed of what has its place from the time of the run: sides that move, and the images above a sheared box.
+double WindowState::fastest_boundary() const {
+  double speed = std::abs(rules.box.shear.jump);
+  for (const SideMotion& motion : rules.box.motions) speed = std::max(speed, motion.largest_speed());
+  return speed;
+}
+
+// start: of the window, absolute time.
+void WindowState::set_tolerances(double start) {
   const double side = std::max(rules.box.width, rules.box.height);
   slack = 1e-9 * 2.0 * largest_radius + 1e-14 * side;
-  // Coordinates, and distances that velocities make in the windows ahead, are rounded to this.
+  // Coordinates, distances that velocities make in the windows ahead, and those that sides and images have gone by then
+  // are rounded to this.
   const double fastest = std::sqrt(fastest2) + rules.gravity.size * length;
-  const double rounding = 0x1p-51 * (side + fastest * horizon);
+  const double rounding = 0x1p-51 * (side + fastest * horizon + fastest_boundary() * (start + horizon));
   close = 4.0 * rounding_ratio * rounding;
   slow = rounding_ratio * rounding / meant;
   blur = blur_in_roundings * rounding;

@@ -133,7 +133,8 @@ struct WindowState {
   void release_memory();
 
  private:
-  void set_tolerances();
+  void set_tolerances(double start);
+  double fastest_boundary() const;
 };
 
 }  // namespace carom
