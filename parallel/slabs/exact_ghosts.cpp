@@ -267,6 +267,7 @@ void ExactGhosts::take_answer(WindowState& window, const Shared& ghosts, const B
     const std::uint32_t i = ghosts.places.at(a.number);
     window.record[i].path = a.path;
     window.record[i].version = a.version;
+    window.fastest2 = std::max(window.fastest2, a.path.vx * a.path.vx + a.path.vy * a.path.vy);
     if (!window.thermal_hits.empty()) window.thermal_hits[i] = a.thermal_hits;
     if (!window.last_contact.empty()) window.last_contact[i] = a.last_contact;
     if (!window.spin.empty()) window.spin[i] = a.spin;

@@ -176,7 +176,8 @@ TEST(ExactGhosts, SeeStrangersThatComeNear) {
   EXPECT_GT(far, 40);
 }
 
-// All that a path's owner knows of it, where it has begun more of them.
+// All that a path's owner knows of it, where it has begun more of them; and how fast it is, as a fast disk may meet
+// images of others beyond the nearest ones.
 TEST(ExactGhosts, LearnWhatHasBecomeOfThem) {
   const Heights heights(true, 0.0, 1);
   run_on_local_ranks(cut.ranks(), [&](Ranks& ranks) {
@@ -201,6 +202,7 @@ TEST(ExactGhosts, LearnWhatHasBecomeOfThem) {
     }
     ASSERT_GT(unknown.size(), 9U);
     part.ghosts.learn(window, unknown);
+    double fastest2 = 0.0;
     for (std::uint32_t i = 0; i < d.size(); ++i) {
       const DiskId id = d.id[i];
       const bool learnt = part.is_own(id) || (id % 4 != 0 && id % 2 == 0);
@@ -212,7 +214,9 @@ TEST(ExactGhosts, LearnWhatHasBecomeOfThem) {
       EXPECT_EQ(window.thermal_hits[i], learnt ? id : 0);
       EXPECT_EQ(window.last_contact[i], 6.0 * k);
       EXPECT_EQ(window.spin[i], 7.0 * k);
+      if (learnt && !part.is_own(id)) fastest2 = std::max(fastest2, 41.0 * k * k);
     }
+    EXPECT_EQ(window.fastest2, fastest2);
   });
 }
 
