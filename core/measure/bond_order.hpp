@@ -12,15 +12,15 @@ namespace carom {
 
 // psi6 of each disk, real and imaginary part: the mean of exp(6 i angle) over the directions to its six nearest
 // neighbours (nearest images; of a sheared box at the time of the disks). In order of storage; empty with fewer than
-// seven disks. O(N).
+// seven disks. O(N log N).
 std::vector<Vec2> bond_orders(const Disks& disks, const Domain& box, const BlockRunner& run = run_in_order);
 
 inline constexpr Count least_of_bonds = 7;  // disks: one and its six neighbours
 
 // The same of the first disks, where the others are those around them: all that are no further than known (length)
-// from one of them are there. all: how many disks the box has. Absent where a sixth neighbour may be one that is not.
+// from one of them are there. Absent where a sixth neighbour may be one that is not.
 std::optional<std::vector<Vec2>> bond_orders_of_first(const Disks& disks, std::size_t first, const Domain& box,
-                                                      double known, Count all, const BlockRunner& run = run_in_order);
+                                                      double known, const BlockRunner& run = run_in_order);
 
 // The disks with psi6 in place of their velocities, so that it can come in pieces as they do; NaN where there are none.
 Disks with_orders(Disks disks, const std::vector<Vec2>& orders);

@@ -31,7 +31,7 @@ std::optional<Disks> orders_over_ranks(Ranks& ranks, const AnalysisPlan& plan, c
   for (double reach = first_reach(box, disks);; reach *= 2.0) {
     if (ranks.count() > 2 && !is_within_neighbours(cut, box, reach, excursion)) return std::nullopt;
     Disks around = joined(own, disks_at_borders(ranks, slab, box, own, reach, excursion).others);
-    const auto orders = bond_orders_of_first(around, own.size(), box, reach, disks, run);
+    const auto orders = bond_orders_of_first(around, own.size(), box, reach, run);
     if (ranks.any(!orders.has_value())) continue;
     truncate(around, own.size());
     return with_orders(std::move(around), *orders);

@@ -57,6 +57,37 @@ TEST(BondOrder, InBoxesOfFewCellsIsThatOfAllPairs) {
   }
 }
 
+// Where nearly all of the box is empty, and what is not is crowded and far apart, across periodic sides or not.
+TEST(BondOrder, OfClustersFarApartIsThatOfAllPairs) {
+  test::Draws draws(32);
+  for (int k = 0; k < 40; ++k) {
+    const Domain box = test::box_of(1e4, 2e4, k % 2 == 0, k % 4 < 2);
+    Disks d;
+    for (DiskId id = 0; id < 300; ++id) {
+      const double spread = id < 290 ? 1.0 : 1e4;
+      append(d, {spread * draws.in(0.0, 1.0), (id % 3 == 0 ? 1.9e4 : 0.0) + 0.1 * spread * draws.in(0.0, 1.0), 0, 0,
+                 0.01, 1.0, id});
+    }
+    const std::vector<Vec2> psi = bond_orders(d, box);
+    for (std::size_t i = 0; i < d.size(); ++i) {
+      const std::complex<double> expected = order_among_all(d, i, box);
+      ASSERT_NEAR(psi[i].x, expected.real(), 1e-9) << "disk " << i << ", case " << k;
+      ASSERT_NEAR(psi[i].y, expected.imag(), 1e-9) << "disk " << i << ", case " << k;
+    }
+  }
+}
+
+// Seven disks and no more: each has all others as neighbours; of six, none are known.
+TEST(BondOrder, OfTheFirstDisksIsUnknownWithoutSixOthers) {
+  const Domain box = test::box_of(8.0, 8.0, true, true);
+  Disks d;
+  for (DiskId id = 0; id < 6; ++id) append(d, {1.0 + id, 4.0, 0, 0, 0.1, 1.0, id});
+  EXPECT_FALSE(bond_orders_of_first(d, 2, box, 10.0));
+  EXPECT_TRUE(bond_orders_of_first(d, 0, box, 10.0)->empty()) << "of none, all are known";
+  append(d, {7.5, 4.0, 0, 0, 0.1, 1.0, 6});
+  EXPECT_EQ(bond_orders_of_first(d, 2, box, 10.0)->size(), 2U);
+}
+
 // On a square lattice, whose distances are whole numbers, four of the next disks are equally far and two of them count.
 TEST(BondOrder, OfEquallyFarDisksTheLowestIdsCount) {
   constexpr int side = 12;

@@ -169,7 +169,7 @@ TEST(BondCorrelation, HasTheSameBitsOnAnyThreads) {
     const std::vector<Vec2> shared = bond_orders(d, box, run);
     ASSERT_EQ(shared.size(), psi.size());
     for (std::size_t i = 0; i < psi.size(); ++i) EXPECT_TRUE(shared[i].x == psi[i].x && shared[i].y == psi[i].y) << i;
-    EXPECT_FALSE(bond_orders_of_first(d, d.size(), box, 0.5, d.size(), run)) << "sixth neighbours are further";
+    EXPECT_FALSE(bond_orders_of_first(d, d.size(), box, 0.5, run)) << "sixth neighbours are further";
     const BondPairs found = bond_pairs(with_orders(d, shared), box, bins, run);
     EXPECT_EQ(found.counts, pairs.counts);
     for (std::size_t k = 0; k < bins.bins; ++k) EXPECT_EQ(value_of(found.product[k]), value_of(pairs.product[k])) << k;
