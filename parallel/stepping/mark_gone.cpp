@@ -34,7 +34,14 @@ Count mark(Disks& disks, const Executor& executor, std::vector<unsigned char>& g
 
 Count mark_at_sinks(Disks& disks, const Domain& box, const Executor& executor, std::vector<unsigned char>& gone,
                     std::vector<double>& scratch) {
-  return mark(disks, executor, gone, scratch, [&](const auto& d, std::size_t i) { return touches_sink(d, box, i); });
+  // For disks that are clear of all obstacles, only sides are sinks.
+  Domain sides = box;
+  sides.obstacles = nullptr;
+  const bool inner = box.obstacles != nullptr && box.obstacles->has_sinks();
+  return mark(disks, executor, gone, scratch, [&](const auto& d, std::size_t i) {
+    const bool may_touch_inner = inner && d.radius(i) > box.obstacles->clearance({d.x[i], d.y[i]});
+    return touches_sink(d, may_touch_inner ? box : sides, i);
+  });
 }
 
 Count mark_crossing(Disks& disks, const Scene& scene, double dt, Count step, const Executor& executor,
