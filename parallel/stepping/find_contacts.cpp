@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/physics/disk_pair.hpp"
 #include "parallel/cells/nearby_runs.hpp"
+#include "parallel/stepping/search_across.inl"
 #include "parallel/stepping/search_kernel.hpp"
 
 namespace carom {
@@ -17,28 +17,6 @@ constexpr std::size_t search_block = 8192;
 constexpr std::size_t cross_block = 64;
 // Strays a block.
 constexpr std::size_t stray_block = 256;
-
-// The magnitude of nearest_image(d, period), with the same bits and without a branch: whether a neighbour is across the
-// border cannot be predicted. Beyond half a period the subtraction is exact.
-double nearest_magnitude(double d, double period) {
-  return std::min(std::abs(d), period - std::abs(d));
-}
-
-double contact_distance(const SearchInput& in, std::size_t i, std::size_t j) {
-  return in.radius == nullptr ? in.common_radius + in.common_radius : in.radius[j] + in.radius[i];
-}
-
-// sheared, here and below: is the box sheared? find_contacts chooses once.
-template <bool sheared>
-bool touch(const SearchInput& in, std::size_t i, std::size_t j) {
-  if constexpr (sheared) {
-    return touches(nearest_distance2({in.x[j] - in.x[i], in.y[j] - in.y[i]}, in.box), contact_distance(in, i, j));
-  } else {
-    const double dx = nearest_magnitude(in.x[j] - in.x[i], in.period_x);
-    const double dy = nearest_magnitude(in.y[j] - in.y[i], in.period_y);
-    return touches(dx * dx + dy * dy, contact_distance(in, i, j));
-  }
-}
 
 template <bool sheared>
 void test_run(const SearchInput& in, std::size_t i, std::uint32_t first, std::uint32_t last, std::vector<Pair>& pairs) {
@@ -136,17 +114,6 @@ void search_level(const SearchInput& in, const GridLevel& level, InteriorKernel 
   }
 }
 
-// Pairs of disk i with the disks of another size class, which all come after it in storage (`after`), or all before it.
-template <bool sheared>
-void search_across(const SearchInput& in, const GridLevel& other, bool after, std::size_t i, std::vector<Pair>& pairs) {
-  const double reach = in.radius[i] + other.largest_radius + other.margin;
-  for_each_run_near(other, in.start, in.box, in.x[i], in.y[i], reach, [&](std::uint32_t first, std::uint32_t last) {
-    if (after) return test_run<sheared>(in, i, first, last, pairs);
-    const auto own = static_cast<std::uint32_t>(i);
-    for (std::uint32_t j = first; j < last; ++j) test_run<sheared>(in, j, own, own + 1, pairs);
-  });
-}
-
 // Makes `blocks` more buffers ready, emptied; returns the first of them.
 std::size_t more_buffers(FoundContacts& found, std::size_t blocks) {
   const std::size_t first = found.used;
@@ -170,11 +137,12 @@ void search_between(const SearchInput& in, const GridLevel& large, const GridLev
   const bool by_large = disks_of(large) <= disks_of(small);
   const GridLevel& from = by_large ? large : small;
   const GridLevel& to = by_large ? small : large;
+  const AcrossSearch<sheared> search(in, to, by_large);
   const std::size_t begin = in.start[from.start_key()];
   const std::size_t first = more_buffers(found, executor.blocks(disks_of(from), cross_block));
   executor.for_ranges(disks_of(from), cross_block, [&](std::size_t b, std::size_t low, std::size_t high) {
     std::vector<Pair>& pairs = found.buffers[first + b];
-    for (std::size_t i = begin + low; i < begin + high; ++i) search_across<sheared>(in, to, by_large, i, pairs);
+    for (std::size_t i = begin + low; i < begin + high; ++i) search(i, pairs);
   });
 }
 
