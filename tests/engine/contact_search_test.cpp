@@ -112,6 +112,20 @@ TEST_P(ContactSearch, FindsAllPairsOfScatteredDisks) {
   }
 }
 
+// Few disks that reach over one, several and very many cells of small ones, and small ones that find a crowd of larger
+// disks in a few cells.
+TEST_P(ContactSearch, FindsPairsOfFewLargeDisksAmongManySmallOnes) {
+  const Domain box = box_of(24.0, 20.0, (GetParam() & 1) != 0, (GetParam() & 2) != 0);
+  const Domain corner = box_of(8.0, 6.0);
+  Disks d = scattered(box, 6000, 0.05, 0.07, 21);
+  for (const Disks& more : {scattered(corner, 150, 0.14, 0.22, 22), scattered(box, 5, 3.0, 6.0, 23)}) {
+    for (std::size_t i = 0; i < more.size(); ++i)
+      append(d, {more.x[i], more.y[i], 0, 0, more.radius_of(i), 1.0, static_cast<DiskId>(d.size())});
+  }
+  expect_all_pairs(d, box, 0.0);
+  expect_all_pairs(d, box, 0.19);
+}
+
 TEST_P(ContactSearch, FindsPairsOnEdgesAndCorners) {
   const bool px = (GetParam() & 1) != 0;
   const bool py = (GetParam() & 2) != 0;
@@ -128,7 +142,7 @@ TEST_P(ContactSearch, FindsPairsOnEdgesAndCorners) {
 // The search's positions are rounded to a few thousandths of a diameter.
 TEST_P(ContactSearch, FindsPairsThatOnlyJustTouch) {
   const Domain box = box_of(400.0, 320.0, (GetParam() & 1) != 0, (GetParam() & 2) != 0);
-  for (const double ratio : {1.0, 1.5}) {
+  for (const double ratio : {1.0, 1.5, 0.3, 0.02}) {  // the last two: of several size classes
     Disks d;
     for (DiskId id = 0; id < 8000; id += 2) {
       const TwoUniforms place = uniforms(11, Stream::position, id, 0);
