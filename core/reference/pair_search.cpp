@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/disks/cell_axis.hpp"
 #include "core/disks/cell_index.hpp"
 #include "core/physics/disk_pair.hpp"
 #include "core/reference/cell_neighbours.hpp"
@@ -23,25 +24,31 @@ std::size_t cell_of(double coordinate, double length, std::size_t cells) {
   return cell_index(coordinate / length * static_cast<double>(cells), cells);
 }
 
-// Cells no smaller than the largest diameter, and no more than about one a disk.
-UniformGrid make_grid(const Disks& d, const Domain& box) {
+// Of the disks disk(0) to disk(n - 1): cells no smaller than their largest diameter, and no more than about one a disk.
+template <class Disk>
+UniformGrid make_grid(const Disks& d, const Domain& box, double largest_radius, std::size_t n, Disk disk) {
   UniformGrid grid;
-  const double diameter = 2.0 * largest_radius(d);
-  const double most = std::sqrt(static_cast<double>(d.size())) + 1.0;
+  const double diameter = 2.0 * largest_radius;
+  const double most = std::sqrt(static_cast<double>(n)) + 1.0;
   grid.columns = static_cast<std::size_t>(cells_along(box.width, diameter, most));
   grid.rows = static_cast<std::size_t>(cells_along(box.height, diameter, most));
   grid.start.assign(grid.columns * grid.rows + 1, 0);
-  std::vector<std::uint32_t> cell(d.size());
-  for (std::size_t i = 0; i < d.size(); ++i) {
-    cell[i] = static_cast<std::uint32_t>(cell_of(d.y[i], box.height, grid.rows) * grid.columns +
+  std::vector<std::uint32_t> cell(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::uint32_t i = disk(k);
+    cell[k] = static_cast<std::uint32_t>(cell_of(d.y[i], box.height, grid.rows) * grid.columns +
                                          cell_of(d.x[i], box.width, grid.columns));
-    ++grid.start[cell[i]];
+    ++grid.start[cell[k]];
   }
   for (std::size_t c = 1; c < grid.start.size(); ++c) grid.start[c] += grid.start[c - 1];
   // Each cell from its end to its start: its disks are then in their order, and no list of places is needed.
-  grid.members.resize(d.size());
-  for (std::size_t i = d.size(); i-- > 0;) grid.members[--grid.start[cell[i]]] = static_cast<std::uint32_t>(i);
+  grid.members.resize(n);
+  for (std::size_t k = n; k-- > 0;) grid.members[--grid.start[cell[k]]] = disk(k);
   return grid;
+}
+
+UniformGrid make_grid(const Disks& d, const Domain& box) {
+  return make_grid(d, box, largest_radius(d), d.size(), [](std::size_t k) { return static_cast<std::uint32_t>(k); });
 }
 
 bool touch(const Disks& d, const Domain& box, std::size_t i, std::size_t j) {
@@ -86,6 +93,63 @@ void for_pairs_of_row(const UniformGrid& grid, std::size_t row, const Disks& d, 
   }
 }
 
+// Disks whose radii differ by less than a factor of four, so that no cell holds many however mixed the sizes are.
+struct SizeClass {
+  double largest_radius = 0.0;  // length
+  UniformGrid grid;
+};
+
+// From the largest disks to the smallest, without classes of none.
+std::vector<SizeClass> size_classes(const Disks& d, const Domain& box) {
+  constexpr double ratio = 4.0;
+  double largest = largest_radius(d);
+  const double smallest = smallest_radius(d);
+  std::vector<SizeClass> classes;
+  if (smallest * ratio > largest) {
+    classes.push_back({largest, make_grid(d, box)});
+    return classes;
+  }
+  std::vector<std::uint32_t> members;
+  for (; largest >= smallest; largest /= ratio) {
+    members.clear();
+    for (std::uint32_t i = 0; i < d.size(); ++i) {
+      if (d.radius[i] <= largest && d.radius[i] * ratio > largest) members.push_back(i);
+    }
+    if (members.empty()) continue;
+    classes.push_back({largest, make_grid(d, box, largest, members.size(), [&](std::size_t k) { return members[k]; })});
+  }
+  return classes;
+}
+
+// As for_pairs_of_row, of disk i and those of a class that is not its own.
+template <class Use>
+void for_pairs_across(const SizeClass& other, std::uint32_t i, const Disks& d, const Domain& box, Use use) {
+  const auto axis = [](double length, bool periodic, std::size_t cells) {
+    return CellAxis{length, periodic, static_cast<std::int64_t>(cells), static_cast<double>(cells) / length};
+  };
+  // Each cell once, where the two ends meet across a periodic side.
+  const auto near = [&](double c, const CellAxis& along) {
+    const double reach = d.radius_of(i) + other.largest_radius;
+    const CellAxis::Span span = along.span(c - reach, c + reach);
+    return CellAxis::Span{span.first, std::min(span.last, span.first + along.cells - 1)};
+  };
+  const UniformGrid& grid = other.grid;
+  const CellAxis x = axis(box.width, box.periodic_x(), grid.columns), y = axis(box.height, box.periodic_y(), grid.rows);
+  const CellAxis::Span rows = near(d.y[i], y);
+  for (std::int64_t row = rows.first; row <= rows.last; ++row) {
+    // As in for_pairs_of_row.
+    const bool across = y.in_box(row) != row || rows.last - rows.first + 1 == y.cells;
+    const CellAxis::Span columns = across && box.shear.acts() ? CellAxis::Span{0, x.cells - 1} : near(d.x[i], x);
+    for (std::int64_t column = columns.first; column <= columns.last; ++column) {
+      const auto cell = static_cast<std::size_t>(y.in_box(row) * x.cells + x.in_box(column));
+      for (std::uint32_t b = grid.start[cell]; b < grid.start[cell + 1]; ++b) {
+        const std::uint32_t j = grid.members[b];
+        if (touch(d, box, i, j)) d.id[j] < d.id[i] ? use(j, i) : use(i, j);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<Pair> find_touching_pairs(const Disks& d, const Domain& box) {
@@ -102,13 +166,23 @@ std::vector<Pair> find_touching_pairs(const Disks& d, const Domain& box) {
 std::vector<Overlap> deepest_of_touching_pairs(const Disks& d, const Domain& box, const BlockRunner& run,
                                                const std::function<double(std::uint32_t, std::uint32_t)>& overlap) {
   if (d.size() < 2) return {};
-  const UniformGrid grid = make_grid(d, box);
-  std::vector<Overlap> deepest(grid.rows);
-  run(grid.rows, [&](std::size_t row) {
-    for_pairs_of_row(grid, row, d, box, [&](std::uint32_t i, std::uint32_t j) {
-      deepest[row].see({overlap(i, j), d.id[i], d.id[j]});
+  const std::vector<SizeClass> classes = size_classes(d, box);
+  std::vector<Overlap> deepest;
+  for (auto own = classes.begin(); own != classes.end(); ++own) {
+    const UniformGrid& grid = own->grid;
+    const std::size_t first = deepest.size();
+    deepest.resize(first + grid.rows);
+    run(grid.rows, [&](std::size_t row) {
+      const auto see = [&](std::uint32_t i, std::uint32_t j) {
+        deepest[first + row].see({overlap(i, j), d.id[i], d.id[j]});
+      };
+      for_pairs_of_row(grid, row, d, box, see);
+      for (auto smaller = own + 1; smaller != classes.end(); ++smaller) {
+        for (std::uint32_t a = grid.start[row * grid.columns]; a < grid.start[(row + 1) * grid.columns]; ++a)
+          for_pairs_across(*smaller, grid.members[a], d, box, see);
+      }
     });
-  });
+  }
   return deepest;
 }
 

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
+#include <utility>
+#include <vector>
 
 #include "tests/support/all_pairs.hpp"
 #include "tests/support/disks_by_hand.hpp"
@@ -22,6 +25,14 @@ std::size_t expect_same(const Disks& disks, const Domain& box) {
     EXPECT_LT(disks.id[grid[k].i1], disks.id[grid[k].i2]);
     EXPECT_TRUE(k == 0 || !(grid[k] == grid[k - 1]));  // F14
   }
+  std::vector<Pair> looked_at;
+  deepest_of_touching_pairs(disks, box, run_in_order, [&](std::uint32_t i, std::uint32_t j) {
+    looked_at.push_back({i, j});
+    return 0.0;
+  });
+  const auto ids = [&](const Pair& p) { return std::pair(disks.id[p.i1], disks.id[p.i2]); };
+  std::sort(looked_at.begin(), looked_at.end(), [&](const Pair& a, const Pair& b) { return ids(a) < ids(b); });
+  EXPECT_EQ(looked_at, grid);
   return grid.size();
 }
 
@@ -57,6 +68,18 @@ TEST(PairSearch, RadiiOfAllSizes) {
   for (int k = 0; k < 8; ++k) {
     const Domain box = box_of(100.0, 80.0, k % 2 == 1, k / 2 % 2 == 1);
     EXPECT_GT(expect_same(anywhere(draws, box, 300, 0.02, 20.0), box), 0U);
+  }
+}
+
+// In a sheared box, across whose top and bottom disks of any column may meet; images are nearest below half the height.
+TEST(PairSearch, ShearedImages) {
+  test::Draws draws(6);
+  Domain box = box_of(60.0, 50.0, true, true);
+  box.shear.rate = 1.0;
+  for (int k = 0; k < 8; ++k) {
+    box.shear.offset = draws.in(-0.5 * box.width, 0.5 * box.width);
+    EXPECT_GT(expect_same(anywhere(draws, box, 400, 0.02, 10.0), box), 0U);
+    EXPECT_GT(expect_same(anywhere(draws, box, 400, 0.5, 1.0), box), 0U);
   }
 }
 
