@@ -20,9 +20,9 @@ std::int64_t cells_for(double length, double cell, std::size_t obstacles) {
 constexpr std::size_t least_at_rest = 128;
 // Likewise of those that move, whose cells are made for each step.
 constexpr std::size_t least_moving = 16;
-// The cells of how far obstacles are: so many an obstacle, each an eleventh of their mean spacing long; of walls that are
-// long beside that, so many for each of the squares that both their sides go along, such that a ninth of the box is no
-// more than two cells from them; and so many in all at least and at most, as each has one byte.
+// The cells of how far obstacles are: so many an obstacle, each an eleventh of their mean spacing long; of walls that
+// are long beside that, so many for each of the squares that both their sides go along, such that a ninth of the box is
+// no more than two cells from them; and so many in all at least and at most, as each has one byte.
 constexpr double clearance_cells = 128.0;
 constexpr double clearance_cells_along = 256.0;
 constexpr double least_clearance_cells = 4096.0;
