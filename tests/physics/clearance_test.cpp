@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/support/disks_by_hand.hpp"
 #include "tests/support/draws.hpp"
 
 namespace carom {
@@ -16,11 +17,7 @@ constexpr std::size_t cells = 4000;
 constexpr double cell = 0.5;  // 80 by 50 of them
 
 Domain box_of(bool periodic) {
-  Domain box;
-  box.width = 40.0;
-  box.height = 25.0;
-  if (periodic) box.sides.fill(SideKind::periodic);
-  return box;
+  return test::box_of(40.0, 25.0, periodic, periodic);
 }
 
 // Disks, segments and thick segments, some of which reach beyond the sides.

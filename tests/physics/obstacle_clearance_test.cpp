@@ -10,17 +10,14 @@
 #include <vector>
 
 #include "core/disks/obstacle_cells.hpp"
+#include "tests/support/disks_by_hand.hpp"
 #include "tests/support/draws.hpp"
 
 namespace carom {
 namespace {
 
 Domain box_of(bool periodic) {
-  Domain box;
-  box.width = 40.0;
-  box.height = 25.0;
-  if (periodic) box.sides.fill(SideKind::periodic);
-  return box;
+  return test::box_of(40.0, 25.0, periodic, periodic);
 }
 
 WallMotion steady(Vec2 velocity) {
