@@ -33,7 +33,7 @@ void EventCalendar::begin(double start, double end, const CalendarEntries& entri
   const std::size_t most = most_pages_a_disk * disks + few_pages;
   const std::size_t wanted =
       expected == 0 ? 2 * disks : static_cast<std::size_t>(pages_per_event * static_cast<double>(expected));
-  const std::size_t pages = std::clamp(wanted, disks / 2 + 1, most);
+  const std::size_t pages = std::clamp(wanted, few_pages, most);
   pages_a_part_ = many ? pages / parts + 1 : pages;
   begin_part(start, end > start ? static_cast<double>(pages) / (end - start) : 0.0, pages);
 }

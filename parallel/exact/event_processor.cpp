@@ -48,12 +48,16 @@ void EventProcessor<scope>::enter_all(double events_a_disk) {
   const auto last = std::min(static_cast<std::uint32_t>(window_.record.size()), worker_.region.last_disk);
   EventCalendar& calendar = worker_.calendar;
   const std::uint32_t first = worker_.region.first_disk;
-  const double expected = std::min(events_a_disk, most_events_a_disk) * static_cast<double>(last - first);
+  const auto disks = static_cast<double>(last - first);
+  const double expected = std::min(events_a_disk, most_events_a_disk) * disks;
+  // Most events come after its end. It is over before looking ahead is of use.
+  const bool is_short = disks_per_event * expected < disks;
+  const bool is_known = events_a_disk > 0.0;
   calendar.begin(window_.slice_start, window_.length, window_.entries_of(first, last, worker_.number),
-                 static_cast<std::size_t>(expected), window_.looks_ahead);
+                 is_known ? static_cast<std::size_t>(expected) + 1 : 0, window_.looks_ahead && !(is_known && is_short));
   const auto is_active = [this](std::uint32_t i) { return !has_regions || record_[i].progress.is_active(); };
-  // In a short window most events come after its end: those disks stay out until they get another event.
-  if (disks_per_event * expected < static_cast<double>(last - first)) {
+  if (is_short) {
+    // Disks without an event in the window stay out until they get another.
     calendar.insert_all([&](std::uint32_t i) { return calendar.time_of(i) <= window_.length && is_active(i); });
   } else {
     calendar.insert_all(is_active);

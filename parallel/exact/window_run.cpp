@@ -300,7 +300,8 @@ void WindowRun::set_speed_bound(const WindowPlan& plan, double margin) {
   window_.speed_bound = fastest + fall;
 }
 
-// Disks [begin, end), none of which is gone, where neither gravity nor a shear acts: what store_paths does there.
+// Disks [begin, end), where neither gravity nor a shear acts: what store_paths does there. The place of a disk that is
+// gone is not a number, and stays so.
 void WindowRun::store_straight(std::size_t begin, std::size_t end, double length) {
   Disks& d = state_.disks;
   const Domain& box = window_.rules.box;
@@ -342,19 +343,16 @@ ImpactTally WindowRun::store_paths(const WindowPlan& plan, std::vector<unsigned 
   gone.assign(any_gone ? n : 0, 0);
   const Domain& box = window_.rules.box;
   std::vector<ImpactTally> crossings(box.shear.acts() ? executor_.blocks(n, pass_block) : 0);
-  const bool straight = !window_.rules.gravity.acts() && !box.shear.acts() && !any_gone;
+  const bool straight = !window_.rules.gravity.acts() && !box.shear.acts();
   const auto store = [&](const auto& wrap_path) {
     executor_.for_ranges(n, pass_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
       if (straight) store_straight(begin, end, plan.length);
       for (std::size_t i = straight ? end : begin; i < end; ++i) {
         PathSegment p = carried_to(window_.record[i].path, plan.length, window_.rules.gravity);
-        if (any_gone && std::isnan(p.x)) {
-          gone[i] = 1;
-        } else {
-          wrap_path(p, i, b);
-        }
+        if (!any_gone || !std::isnan(p.x)) wrap_path(p, i, b);
         put(p, d, i);
       }
+      for (std::size_t i = begin; any_gone && i < end; ++i) gone[i] = std::isnan(d.x[i]) ? 1 : 0;
       if (!all_->last_contact.empty()) {
         for (std::size_t i = begin; i < end; ++i) {
           all_->last_contact[d.id[i]] = plan.start + window_.last_contact[i];
