@@ -198,6 +198,18 @@ Count due_before(const Source& source, double t) {
   return due_by(source, (1.0 - emission_rounding) * t);
 }
 
+bool has_more(const Source& source, const SourceState& s) {
+  return !source.limit || s.emitted < *source.limit;
+}
+
+double emission_rate(const Scene& scene, const State& state) {
+  double rate = 0.0;
+  for (std::size_t k = 0; k < scene.sources.size(); ++k) {
+    if (has_more(scene.sources[k], state.sources[k])) rate += scene.sources[k].rate;
+  }
+  return rate;
+}
+
 double largest_radius_of(const Source& source) {
   if (source.radius.kind != SizeLaw::Kind::from_other) return size_range(source.radius).high;
   return std::sqrt(size_range(source.mass).high / (std::numbers::pi * source.radius.density));

@@ -51,6 +51,12 @@ inline constexpr double emission_rounding = 1e-12;
 // come.
 Count due_before(const Source& source, double t);
 
+// Has it given fewer than its limit?
+bool has_more(const Source& source, const SourceState& s);
+
+// How many disks per unit time come from the sources that have disks left, if all find room.
+double emission_rate(const Scene& scene, const State& state);
+
 // The largest radius that a source can give a disk, rounding aside; length.
 double largest_radius_of(const Source& source);
 

@@ -11,10 +11,6 @@ namespace carom {
 
 namespace {
 
-bool has_more(const Source& source, const SourceState& s) {
-  return !source.limit || s.emitted < *source.limit;
-}
-
 // A disk that finds no room at so many places waits.
 constexpr std::uint32_t places_tried = 32;
 // While some wait, but fewer than this, a source tries so many times from one emission time to the next: a narrow one

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "core/disks/obstacle_cells.hpp"
 #include "core/step/source.hpp"
 #include "core/step/step_start.hpp"
+#include "core/step/thermostat.hpp"
 #include "core/step/validity.hpp"
 #include "core/step/window_length.hpp"
 #include "core/step/window_plan.hpp"
@@ -33,6 +35,8 @@ namespace {
 constexpr double most_newcomers_of_regions = 0.5;
 // Where more than one of so many disks leave in a window, it takes less to make all lists anew than to take them out.
 constexpr std::size_t disks_per_leaver = 8;
+// Where a kick is for a larger share of the disks, predicting all of them takes as long.
+constexpr double most_kicked_share = 0.5;
 
 class ParallelExact final : public ExactFlights {
  public:
@@ -83,10 +87,11 @@ class ParallelExact final : public ExactFlights {
  private:
   void start_window();
   bool parts_are_known() const { return in_parts_ && halos_.known() != Known::nothing; }
-  bool parts_take(const Edit& edit);
-  bool lists_take(const Edit& edit);
+  bool is_taken(const Edit& edit);
   template <class Add>
   void add_disks(const Add& add);
+  void kick_if_it_is_time();
+  void change_velocities(std::span<const std::uint32_t> disks);
   void begin_brownian();
   void forget(Known left) {
     windows_.forget(left);
@@ -95,7 +100,6 @@ class ParallelExact final : public ExactFlights {
   bool has_room(const Disk& newcomer) const;
   void remove(const std::vector<unsigned char>& gone);
   void take_out_leavers();
-  double newcomers_in(double length) const;
   void build_lists_if_due(const WindowPlan& plan, bool regions_allowed);
   bool run_window_with_retry(WindowPlan& plan, const SpeedSummary& speeds);
   bool run_whole_with_retry(WindowPlan& plan, const SpeedSummary& speeds);
@@ -117,6 +121,7 @@ class ParallelExact final : public ExactFlights {
   // Their indices in these, the largest first, while they are known still: they are taken out when the next window
   // starts, as frames of the last one need them.
   std::vector<std::size_t> leavers_;
+  std::vector<std::uint32_t> kicked_;  // by the last kick, where it was for some alone
   std::vector<double> column_scratch_;
   std::vector<DiskId> id_scratch_;
   double growth_ = 0.0;          // of flights, as ExactFlights says
@@ -133,8 +138,24 @@ void ParallelExact::start_window() {
   if (scene_.physics.collapse_contact_time) state_.last_contact.resize(state_.next_id, -never);
   count_thermal_hits(scene_, state_);
   if (brownian_interval_begins(scene_, state_)) begin_brownian();
-  if (kick_if_due(scene_, state_, executor_)) forget(Known::lists);
+  kick_if_it_is_time();
   if (side_turns(scene_, state_.time)) forget(Known::lists);
+}
+
+// The thermostat's kick. Where it is for some of the disks alone, the others' events stay as they are.
+void ParallelExact::kick_if_it_is_time() {
+  const bool for_some = kicked_share(scene_) < most_kicked_share && !scene_.box.shear.acts();
+  kicked_.clear();
+  if (kick_if_due(scene_, state_, executor_, for_some ? &kicked_ : nullptr) && !for_some) forget(Known::lists);
+  if (!kicked_.empty()) change_velocities(kicked_);
+}
+
+// Of what is known of the disks, their next events: they are now, so that they are predicted at the start of the next
+// window, with all disks near them.
+void ParallelExact::change_velocities(std::span<const std::uint32_t> disks) {
+  if (parts_are_known()) return halos_.change_velocities(disks);
+  if (windows_.known() == Known::nothing) return;
+  for (const std::uint32_t i : disks) windows_.window().set_next_event_time(i, windows_.length());
 }
 
 void ParallelExact::release_memory() {
@@ -152,8 +173,8 @@ bool ParallelExact::edit(const Edit& edit) {
     add_disks([&] { apply(edit, state_); });
     return true;
   }
-  const bool known = windows_.known() != Known::nothing && !scene_.box.shear.acts();
-  const bool taken = parts_are_known() ? parts_take(edit) : known && lists_take(edit);
+  const bool known = parts_are_known() || (windows_.known() != Known::nothing && !scene_.box.shear.acts());
+  const bool taken = known && is_taken(edit);
   apply(edit, state_);
   if (!taken) forget(Known::nothing);
   return true;
@@ -177,23 +198,16 @@ void ParallelExact::add_disks(const Add& add) {
   }
 }
 
-// Makes the change in what is known of the disks; false where all is to be made anew. A disk whose next event is now is
-// predicted at the start of the next window, with all disks near it.
-bool ParallelExact::lists_take(const Edit& edit) {
-  const double now = windows_.length();
+// Makes the change in what is known of the disks; false where all is to be made anew, as parts are for a disk that
+// goes.
+bool ParallelExact::is_taken(const Edit& edit) {
   if (edit.kind == Edit::Kind::set_velocity) {
-    windows_.window().set_next_event_time(static_cast<std::uint32_t>(edit.index), now);
+    const auto i = static_cast<std::uint32_t>(edit.index);
+    change_velocities({&i, 1});
     return true;
   }
-  if (!windows_.takes_changes()) return false;
+  if (parts_are_known() || !windows_.takes_changes()) return false;
   windows_.remove_disk(edit.index, state_.disks);
-  return true;
-}
-
-// Likewise; parts are made anew for a disk that comes or goes.
-bool ParallelExact::parts_take(const Edit& edit) {
-  if (edit.kind != Edit::Kind::set_velocity) return false;
-  halos_.change_velocity(edit.index);
   return true;
 }
 
@@ -255,21 +269,11 @@ void ParallelExact::take_out_leavers() {
   at_start_ = Disks{};
 }
 
-// How many disks sources give in a window of this length, if all find room.
-double ParallelExact::newcomers_in(double length) const {
-  double rate = 0.0;
-  for (std::size_t k = 0; k < scene_.sources.size(); ++k) {
-    const Source& source = scene_.sources[k];
-    if (!source.limit || state_.sources[k].emitted < *source.limit) rate += source.rate;
-  }
-  return rate * length;
-}
-
 void ParallelExact::build_lists_if_due(const WindowPlan& plan, bool regions_allowed) {
   if (!windows_.lists_due(plan)) return;
   // Regions take no changes: their lists are built anew. Where disks leave through sinks, that is once in a window of
   // full length, and faster than one queue; each newcomer ends a window.
-  regions_allowed = regions_allowed && newcomers_in(plan.meant) < most_newcomers_of_regions;
+  regions_allowed = regions_allowed && emission_rate(scene_, state_) * plan.meant < most_newcomers_of_regions;
   ListLayout layout = choose_layout(state_.disks.size(), scene_.box, regions_allowed, executor_);
   layout.growth = growth_;
   windows_.build_lists(plan, layout);

@@ -174,10 +174,10 @@ void HaloPart::visit_lists(const std::function<void(std::size_t, std::span<const
 }
 
 // A disk whose next event is now is predicted at the start of the next window, with all disks near it.
-void HaloPart::change_velocity(std::uint32_t slot) {
-  const auto found = std::find(slots_.begin(), slots_.end(), slot);
-  if (found == slots_.end()) return;
-  run_.window().set_next_event_time(static_cast<std::uint32_t>(found - slots_.begin()), run_.length());
+void HaloPart::change_velocities(const std::vector<unsigned char>& changed) {
+  for (std::uint32_t i = 0; i < slots_.size(); ++i) {
+    if (changed[slots_[i]] != 0) run_.window().set_next_event_time(i, run_.length());
+  }
 }
 
 void HaloPart::visit_near(Vec2 centre, double half_width, double half_height,

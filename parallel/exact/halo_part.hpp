@@ -79,8 +79,8 @@ class HaloPart {
   bool has_all_near_own(const Disks& all) const;
   // Calls visit(slot, near) for each own disk; near: the slots of the disks that it lists.
   void visit_lists(const std::function<void(std::size_t, std::span<const std::uint32_t>)>& visit) const;
-  // The disk in this slot has another velocity: if it is here, its next event is predicted anew.
-  void change_velocity(std::uint32_t slot);
+  // Disks in slots where `changed` is not 0 have other velocities: those that are here are predicted anew.
+  void change_velocities(const std::vector<unsigned char>& changed);
   // Calls visit with the slots of own disks, as NeighbourLists::visit_near.
   void visit_near(Vec2 centre, double half_width, double half_height,
                   const std::function<void(std::size_t)>& visit) const;

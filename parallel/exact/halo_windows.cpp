@@ -256,8 +256,10 @@ ImpactTally HaloWindows::store_paths(const WindowPlan& plan) {
   return tally[0];
 }
 
-void HaloWindows::change_velocity(std::size_t disk) {
-  for_parts([&](HaloPart& part) { part.change_velocity(static_cast<std::uint32_t>(disk)); });
+void HaloWindows::change_velocities(std::span<const std::uint32_t> disks) {
+  std::vector<unsigned char> changed(state_.disks.size(), 0);
+  for (const std::uint32_t i : disks) changed[i] = 1;
+  for_parts([&](HaloPart& part) { part.change_velocities(changed); });
 }
 
 // An own disk may have left its part, so all parts are asked.

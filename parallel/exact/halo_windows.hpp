@@ -48,8 +48,8 @@ class HaloWindows {
   // After a window that was done, as WindowRun::store_paths; no disk is gone.
   ImpactTally store_paths(const WindowPlan& plan);
 
-  // Between windows, where all is known since the last one was done. The disk has another velocity.
-  void change_velocity(std::size_t disk);
+  // Between windows, where all is known since the last one was done. These disks have other velocities.
+  void change_velocities(std::span<const std::uint32_t> disks);
   // All radii have grown, by no more than growth() since the lists were built, and times are forgotten.
   void take_radii();
   // By how much those that there are allow for (NeighbourLists::growth).

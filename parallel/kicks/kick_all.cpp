@@ -46,7 +46,8 @@ struct Chosen {
 
 }  // namespace
 
-void kick_range(Disks& disks, const Scene& scene, Count number, std::size_t begin, std::size_t end, ExactSum& heat) {
+void kick_range(Disks& disks, const Scene& scene, Count number, std::size_t begin, std::size_t end, ExactSum& heat,
+                std::vector<std::uint32_t>* kicked) {
   const DrawKernels draw = choose_draw_kernels();
   const Kick kick = kick_of(scene);
   const double share = kicked_share(scene);
@@ -63,24 +64,29 @@ void kick_range(Disks& disks, const Scene& scene, Count number, std::size_t begi
                    chosen.count);
       for (std::size_t k = 0; k < chosen.count; ++k) given[k] = kick_disk(d, scene, kick, chosen.disk[k], {x[k], y[k]});
       heat.add(std::span<const double>(given).first(chosen.count));
+      if (kicked != nullptr) kicked->insert(kicked->end(), chosen.disk.begin(), chosen.disk.begin() + chosen.count);
     }
   });
 }
 
-ExactSum kick_all(Disks& disks, const Scene& scene, Count number, const Executor& executor) {
+ExactSum kick_all(Disks& disks, const Scene& scene, Count number, const Executor& executor,
+                  std::vector<std::uint32_t>* kicked) {
   const std::size_t n = disks.size();
-  std::vector<ExactSum> heat(executor.blocks(n, kick_block) + 1);
+  const std::size_t blocks = executor.blocks(n, kick_block);
+  std::vector<ExactSum> heat(blocks + 1);
+  std::vector<std::vector<std::uint32_t>> chosen(kicked != nullptr ? blocks : 0);
   executor.for_ranges(n, kick_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
-    kick_range(disks, scene, number, begin, end, heat[b]);
+    kick_range(disks, scene, number, begin, end, heat[b], kicked != nullptr ? &chosen[b] : nullptr);
   });
+  for (const std::vector<std::uint32_t>& c : chosen) kicked->insert(kicked->end(), c.begin(), c.end());
   for (std::size_t b = 1; b < heat.size(); ++b) heat[0].add(heat[b]);
   return heat[0];
 }
 
-bool kick_if_due(const Scene& scene, State& state, const Executor& executor) {
+bool kick_if_due(const Scene& scene, State& state, const Executor& executor, std::vector<std::uint32_t>* kicked) {
   if (!is_kick_due(scene, state)) return false;
   const Count number = state.intervals++;
-  state.counters.thermostat_heat += kick_all(state.disks, scene, number, executor).value();
+  state.counters.thermostat_heat += kick_all(state.disks, scene, number, executor, kicked).value();
   return true;
 }
 
