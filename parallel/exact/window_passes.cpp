@@ -5,6 +5,7 @@
 #include "core/disks/disk_view.hpp"
 #include "core/physics/wall_overlap.hpp"
 #include "core/step/step_start.hpp"
+#include "parallel/kicks/draw_velocities.hpp"
 
 namespace carom {
 
@@ -37,10 +38,12 @@ void draw_brownian_interval(Disks& disks, const Scene& scene, const BrownianInte
   const std::size_t n = disks.size();
   const bool sinks = has_brownian_sink(scene);
   gone.assign(sinks ? n : 0, 0);
+  std::vector<double> of_blocks;
+  draw_velocities(disks, scene, interval.length, interval.number, executor, of_blocks);
+  if (!sinks) return;
   with_view(disks, [&](const auto& d) {
     executor.for_ranges(n, pass_disks, [&](std::size_t, std::size_t begin, std::size_t end) {
-      draw_brownian(d, scene, interval.number, interval.length, begin, end);
-      for (std::size_t i = begin; sinks && i < end; ++i) {
+      for (std::size_t i = begin; i < end; ++i) {
         gone[i] = crosses_sink(d, scene, interval.number, interval.length, i) ? 1 : 0;
       }
     });

@@ -11,7 +11,7 @@
 #include "core/step/thermostat.hpp"
 #include "parallel/kicks/kick_all.hpp"
 #include "parallel/slabs/rank_sums.hpp"
-#include "parallel/stepping/draw_velocities.hpp"
+#include "parallel/kicks/draw_velocities.hpp"
 #include "parallel/stepping/drift_blocks.hpp"
 #include "parallel/stepping/finish_disk.hpp"
 #include "parallel/stepping/mark_gone.hpp"

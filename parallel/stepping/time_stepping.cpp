@@ -10,7 +10,7 @@
 #include "parallel/cells/compact.hpp"
 #include "parallel/cells/meets_nearby.hpp"
 #include "parallel/kicks/kick_all.hpp"
-#include "parallel/stepping/draw_velocities.hpp"
+#include "parallel/kicks/draw_velocities.hpp"
 #include "parallel/stepping/drift_blocks.hpp"
 #include "parallel/stepping/mark_gone.hpp"
 #include "parallel/stepping/sort_rule.hpp"

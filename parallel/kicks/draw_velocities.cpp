@@ -1,4 +1,4 @@
-#include "parallel/stepping/draw_velocities.hpp"
+#include "parallel/kicks/draw_velocities.hpp"
 
 #include <algorithm>
 
