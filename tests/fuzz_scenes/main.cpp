@@ -27,7 +27,7 @@ struct Options {
   std::uint32_t scenes = 0;
   std::uint64_t seed = 1;
   std::uint32_t from = 0;
-  bool oracle = false, wide = false, verbose = false, print = false;
+  bool oracle = false, wide = false, ranks = false, verbose = false, print = false;
   unsigned cpu_seconds = 300, gigabytes = 4;
   std::string folder = "fuzz_scenes", scene;
 };
@@ -39,6 +39,7 @@ std::string text_of(const Options& options, std::uint32_t number, std::uint32_t 
 }
 
 Trial try_text(const Options& options, const std::string& text, const std::string& folder) {
+  if (options.ranks) return try_on_ranks(text, "scene", folder);
   return options.oracle ? try_against_oracle(text, "scene") : try_scene(text, "scene", folder);
 }
 
@@ -122,7 +123,10 @@ Result in_a_process(const Options& options, std::uint32_t number) {
 std::string save(const Options& options, std::uint32_t number, const Result& result) {
   std::filesystem::create_directories(options.folder);
   const std::string path = fmt::format("{}/{}{}_{}_{}.toml", options.folder, options.wide ? "wide_" : "",
-                                       options.oracle ? "oracle" : "scene", options.seed, number);
+                                       options.oracle  ? "oracle"
+                                       : options.ranks ? "ranks"
+                                                       : "scene",
+                                       options.seed, number);
   std::ofstream file(path);
   for (const std::string& fault : result.faults) file << "# " << fault << "\n";
   file << text_of(options, number, result.attempt);
@@ -142,7 +146,10 @@ int run_many(const Options& options) {
     fmt::print("{}: {}\n", save(options, k, result), result.faults.front());
   }
   fmt::print("{} random {} of seed {}: {} failed, {} could not be made\n", options.scenes,
-             options.oracle ? "scenes against the oracle" : "scenes", options.seed, failed, refused);
+             options.oracle  ? "scenes against the oracle"
+             : options.ranks ? "scenes on ranks"
+                             : "scenes",
+             options.seed, failed, refused);
   return failed == 0 ? 0 : fault_status;
 }
 
@@ -165,6 +172,7 @@ int main(int argc, char** argv) {
   app.add_option("SEED", options.seed, "of the scenes");
   app.add_option("--from", options.from, "number of the first scene");
   app.add_flag("--oracle", options.oracle, "method exact against an all-pairs simulation");
+  app.add_flag("--ranks", options.ranks, "on two and three ranks, against one machine");
   app.add_flag("--wide", options.wide, "flat boxes, clusters, cold flows, long walls, very unequal obstacles");
   app.add_option("-o", options.folder, "folder for the scenes that fail");
   app.add_option("--scene", options.scene, "tries this file instead");

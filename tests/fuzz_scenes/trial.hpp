@@ -20,4 +20,8 @@ Trial try_scene(const std::string& text, const std::string& name, const std::str
 // runs be compared.
 Trial try_against_oracle(const std::string& text, const std::string& name);
 
+// On two and on three ranks, step by step: the bits, warnings and errors of one machine. The account says whether one
+// rank ran all of them.
+Trial try_on_ranks(const std::string& text, const std::string& name, const std::string& folder = "");
+
 }  // namespace carom::fuzz

@@ -21,6 +21,7 @@
 #include "parallel/slabs/slab_pairwise.hpp"
 #include "parallel/threads/executor.hpp"
 #include "tests/support/feature_scenes.hpp"
+#include "tests/support/hash_over_ranks.hpp"
 #include "tests/support/same_counters.hpp"
 
 namespace carom::test {
@@ -37,22 +38,6 @@ struct SlabTrace {
   std::size_t last_disks = 0;  // and how many it had at last
   std::size_t thin = 0;        // warnings that slabs would be too thin, or that one rank runs all
 };
-
-// state_hash of all ranks' disks together.
-inline std::uint64_t state_hash_over_ranks(Ranks& ranks, const Disks& own) {
-  struct Part {
-    std::uint64_t disks = 0, sum = 0;
-  };
-  Bytes here;
-  put(here, Part{own.size(), sum_of_hashes(own)});
-  Part all;
-  for (const Bytes& there : ranks.gather(here)) {
-    const auto part = MessageReader(there).get<Part>();
-    all.disks += part.disks;
-    all.sum += part.sum;
-  }
-  return state_hash(all.disks, all.sum);
-}
 
 // What the engine has come to at the end of the run.
 inline void see_end(Engine& engine, SlabTrace& trace) {
