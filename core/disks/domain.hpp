@@ -54,12 +54,6 @@ struct Domain {
     const SideMotion& motion = motions[static_cast<std::size_t>(s)];
     return motion.kind == SideMotion::Kind::sine ? motion.swung(place(s), t) : place(s).after(t);
   }
-  bool has_sine_side() const {
-    for (const SideMotion& motion : motions) {
-      if (motion.kind == SideMotion::Kind::sine) return true;
-    }
-    return false;
-  }
   // Walls that move go to where they are at time t.
   void move_walls(double t) {
     clock = {t, t};

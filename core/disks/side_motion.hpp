@@ -54,6 +54,9 @@ struct SideMotion {
   // When the piece of time t ends.
   double piece_end(double t) const { return kind == Kind::parabolas ? (piece(t) + 1.0) * half() : HUGE_VAL; }
 
+  // Does a parabola begin at time t, where a window had to end?
+  bool turns_at(double t) const { return kind == Kind::parabolas && piece(t) * half() == t; }
+
   SidePlace at(double t) const {
     if (kind == Kind::none) return {};
     if (kind == Kind::steady) return {inset + speed * t, speed, 0.0};

@@ -68,13 +68,6 @@ double next_cut(const Scene& scene, const State& state) {
   return cut;
 }
 
-bool side_turns(const Scene& scene, double t) {
-  for (const SideMotion& motion : scene.box.motions) {
-    if (motion.kind == SideMotion::Kind::parabolas && motion.piece(t) * motion.half() == t) return true;
-  }
-  return false;
-}
-
 void emit_at_window_start(const Scene& scene, State& state, const std::function<bool(const Disk&)>& room) {
   if (scene.sources.empty()) return;
   const Domain box = box_at(scene.box, state.time);

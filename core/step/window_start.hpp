@@ -19,10 +19,6 @@ double next_cut(const Scene& scene, const State& state);
 // windows end.
 void emit_at_window_start(const Scene& scene, State& state, const std::function<bool(const Disk&)>& room);
 
-// Does a side that vibrates begin another piece of its motion at time t, where a window had to end? What was predicted
-// for it before counts no more.
-bool side_turns(const Scene& scene, double t);
-
 // Is a Brownian interval due to begin at state.time?
 bool brownian_interval_begins(const Scene& scene, const State& state);
 

@@ -139,7 +139,6 @@ void ParallelExact::start_window() {
   count_thermal_hits(scene_, state_);
   if (brownian_interval_begins(scene_, state_)) begin_brownian();
   kick_if_it_is_time();
-  if (side_turns(scene_, state_.time)) forget(Known::lists);
 }
 
 // The thermostat's kick. Where it is for some of the disks alone, the others' events stay as they are.

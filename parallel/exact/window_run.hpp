@@ -125,6 +125,10 @@ class WindowRun {
   void count_window(const WindowPlan& plan);
   void load_paths(const WindowPlan& plan, const SpeedSummary& speeds, std::size_t disks);
   void load_disks(std::size_t begin, std::size_t end, const WindowPlan& plan);
+  void load_records(std::size_t begin, std::size_t end);
+  void load_times(std::size_t begin, std::size_t end, const WindowPlan& plan);
+  double early_by() const;
+  unsigned bits_of_new_sides(double start) const;
   void mark_disks();
   ImpactTally store_part(const WindowPlan& plan);
   ImpactTally end_window(const WindowPlan& plan, const std::vector<ImpactTally>& crossings);
@@ -133,6 +137,9 @@ class WindowRun {
   double first_relist_time(std::size_t i, const WindowPlan& plan) const;
   void store_straight(std::size_t begin, std::size_t end, double length);
   void set_speed_bound(const WindowPlan& plan, double margin);
+
+  // Disks a block in passes over all disks.
+  static constexpr std::size_t pass_block = 8192;
 
   const Scene& scene_;
   State& state_;
@@ -143,10 +150,6 @@ class WindowRun {
   WindowState window_;
   NeighbourLists lists_;
   SliceScheduler scheduler_;
-  // How much rounding shifts a contact with an obstacle, or with a side that moves as a sine, depends on how it is
-  // touched: where there is such a side, all events are predicted again at every window's start, and those of disks
-  // near obstacles elsewhere.
-  const bool predicts_anew_;
   WindowGhosts* ghosts_ = nullptr;
   double least_largest_radius_ = 0.0;  // of other ranks' or parts' disks
   double largest_radius_ = 0.0;

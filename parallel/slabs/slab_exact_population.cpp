@@ -25,7 +25,6 @@ void SlabExact::start_window() {
     remove_gone();
   }
   if (is_kick_due(scene_, state_)) kick();
-  if (side_turns(scene_, state_.time)) windows_.forget(Known::lists);
 }
 
 // All ranks draw the same newcomers, and ask each other whether one meets a disk. Until then the state has the

@@ -1,0 +1,135 @@
+// The start of a window: what the disks begin it with.
+#include <algorithm>
+#include <cmath>
+
+#include "parallel/exact/window_run.hpp"
+
+namespace carom {
+
+namespace {
+
+// At the start of a window all paths begin anew from rounded coordinates, so that events may come a little earlier than
+// predicted. So disks are predicted again this share of a window earlier. That is enough for contacts with an approach
+// faster than WindowState::slow; slower ones that are close are predicted at the start of every window.
+constexpr double early_share = 1e-3;
+// Of a window that is cut shorter than this share of what it is meant to last, as if it lasted so long.
+constexpr double least_length_share = 1.0 / 32.0;
+// A disk is listed as far ahead of where it is as it flies in this many of its mean free times; after a collision, two
+// fifths of its velocity remain on average. The fewest instructions a collision are at 0.5 to 1, at packing fractions
+// of 0.2 and 0.5.
+constexpr double lead_in_free_times = 0.7;
+
+}  // namespace
+
+void WindowRun::load_paths(const WindowPlan& plan, const SpeedSummary& speeds, std::size_t disks) {
+  const PhaseTimer timer(times_, "load");
+  const Disks& d = state_.disks;
+  window_.begin(exact_rules(scene_, d, plan.start), d, plan, speeds.largest2, largest_radius_);
+  window_.most_paths = most_paths(disks);
+  // Each event is a collision of two disks. While the rate is not known, a disk is listed where it is.
+  lists_.set_lead_time(per_disk_ > 0.0 ? lead_in_free_times / (2.0 * per_disk_) : 0.0);
+  if (slots_ != nullptr) {
+    for (std::size_t i = 0; i < window_.spin.size(); ++i) window_.spin[i] = all_->disks.spin[(*slots_)[i]];
+  }
+  window_.safe_speed2 = lists_.safe_speed2(plan.length, window_.rules.gravity.size);
+  window_.last_contact.resize(all_->last_contact.empty() ? 0 : d.size());
+  window_.thermal_hits.resize(all_->thermal_hits.empty() ? 0 : d.size());
+  executor_.for_ranges(d.size(), pass_block,
+                       [&](std::size_t, std::size_t begin, std::size_t end) { load_disks(begin, end, plan); });
+}
+
+// Disks [begin, end), which begin the window on new paths.
+void WindowRun::load_disks(std::size_t begin, std::size_t end, const WindowPlan& plan) {
+  load_records(begin, end);
+  load_times(begin, end, plan);
+  const Disks& d = state_.disks;
+  if (!window_.last_contact.empty()) {
+    for (std::size_t i = begin; i < end; ++i) window_.last_contact[i] = all_->last_contact[d.id[i]] - plan.start;
+  }
+  if (!window_.thermal_hits.empty()) {
+    for (std::size_t i = begin; i < end; ++i) window_.thermal_hits[i] = all_->thermal_hits[d.id[i]];
+  }
+  if (!window_.burst.empty()) std::fill_n(&window_.burst[begin], end - begin, Burst{});
+}
+
+// Their records, and the times of their next events as they were predicted in the window before.
+void WindowRun::load_records(std::size_t begin, std::size_t end) {
+  const Disks& d = state_.disks;
+  const bool relists_stay = known_ == Known::lists_and_times && !rebuilt_;
+  // Pointers to the columns in registers: stores to records and entries could change them otherwise.
+  const Disks& paths = all_->disks;
+  const double* const x = paths.x.data();
+  const double* const y = paths.y.data();
+  const double* const vx = paths.vx.data();
+  const double* const vy = paths.vy.data();
+  const DiskId* const id = d.id.data();
+  DiskRecord* const record = window_.record.data();
+  CalendarEntry* const entry = window_.entry.data();
+  const double length = length_;
+  const double early = early_by();
+  const auto load = [&](const auto& slot_of) __attribute__((always_inline)) {
+    for (std::size_t i = begin; i < end; ++i) {
+      // A contact is predicted again, since rounding at the start of paths may make another event the first.
+      const bool relists = relists_stay && record[i].partner.is_relist();
+      const std::size_t k = slot_of(i);
+      record[i].path = {0.0, x[k], y[k], vx[k], vy[k]};
+      record[i].radius = d.common_radius;
+      record[i].id = id[i];
+      record[i].partner = relists ? Partner::relist() : Partner::none();
+      record[i].version = record[i].partner_version = 0;
+      // From the new start, and a little earlier.
+      entry[i].time = (entry[i].time - length) - early;
+    }
+  };
+  if (slots_ != nullptr) {
+    load([slot = slots_->data()](std::size_t i) { return std::size_t{slot[i]}; });
+  } else {
+    load([](std::size_t i) { return i; });
+  }
+  if (d.radius.empty()) return;
+  for (std::size_t i = begin; i < end; ++i) record[i].radius = d.radius[i];
+}
+
+// The events of which disks are not known from the window before: they are predicted at this one's start.
+void WindowRun::load_times(std::size_t begin, std::size_t end, const WindowPlan& plan) {
+  CalendarEntry* const entry = window_.entry.data();
+  if (known_ != Known::lists_and_times) {
+    for (std::size_t i = begin; i < end; ++i) entry[i].time = 0.0;
+    return;
+  }
+  if (rebuilt_) {
+    const double valid = (known_until_ - plan.start) - early_by();
+    for (std::size_t i = begin; i < end; ++i) {
+      entry[i].time = std::min({entry[i].time, first_relist_time(i, plan), valid});
+    }
+  }
+  const unsigned near = bits_of_new_sides(plan.start) | (scene_.box.obstacles != nullptr ? ListRow::obstacle_near : 0U);
+  if (near == 0) return;
+  for (std::size_t i = begin; i < end; ++i) {
+    if ((lists_.rows().row(static_cast<std::uint32_t>(i)).sides & near) != 0) entry[i].time = 0.0;
+  }
+}
+
+// By how much kept times come earlier than they were predicted.
+double WindowRun::early_by() const {
+  return early_share * std::max(length_, least_length_share * meant_);
+}
+
+// Bits (1 << side) of the sides whose contacts are predicted anew for a window that starts at this time: of a sine,
+// always, as how much rounding shifts a contact depends on how it is touched; of parabolas, where one begins.
+unsigned WindowRun::bits_of_new_sides(double start) const {
+  unsigned bits = 0;
+  for (const Side side : all_sides) {
+    const SideMotion& motion = scene_.box.motions[static_cast<std::size_t>(side)];
+    if (motion.kind == SideMotion::Kind::sine || motion.turns_at(start)) bits |= 1U << static_cast<unsigned>(side);
+  }
+  return bits;
+}
+
+// Which disks are near borders is not known yet when lists have just been built: all are taken to be.
+double WindowRun::first_relist_time(std::size_t i, const WindowPlan& plan) const {
+  return lists_.earliest_relist_time(static_cast<std::uint32_t>(i), window_.record[i].path, 0.0, plan.length,
+                                     window_.rules.gravity, lists_.relist_distance(true));
+}
+
+}  // namespace carom
