@@ -11,8 +11,8 @@ using Longs = long long __attribute__((vector_size(16)));
 
 constexpr std::size_t lanes = 2;
 constexpr int block_bits = 8;
-constexpr std::size_t block = std::size_t{1} << block_bits;
-static_assert(block % lanes == 0);
+constexpr std::size_t block = ExactSum::block;
+static_assert(block == std::size_t{1} << block_bits && block % lanes == 0);
 constexpr std::size_t few = 64;  // where it does not pay
 // Larger and smaller values are added one by one, so that nothing below overflows or is subnormal.
 constexpr double largest_extracted = 0x1p900;
@@ -34,16 +34,6 @@ Doubles larger(Doubles a, Doubles b) {
 #else
   return a > b ? a : b;
 #endif
-}
-
-double largest_size(const double* x) {
-  constexpr Longs magnitude_bits{0x7fffffffffffffffLL, 0x7fffffffffffffffLL};
-  Doubles largest = both(0.0);
-  for (std::size_t k = 0; k < block; k += lanes) {
-    const Longs bits = std::bit_cast<Longs>(load(x + k)) & magnitude_bits;
-    largest = larger(std::bit_cast<Doubles>(bits), largest);
-  }
-  return std::max(largest[0], largest[1]);
 }
 
 // Added to values below 2^e and taken off again, it leaves all their bits from 2^(e - 44) on: so few that sums of a
@@ -82,34 +72,49 @@ double left_of(double x, double first, double second) {
 
 }  // namespace
 
-// Leading bits are taken from all values in a common unit, where sums are exact: ExtractVector of Rump, Ogita and
-// Oishi, "Accurate floating-point summation part I", SIAM J. Sci. Comput. 31 (2008), 189, twice.
+double largest_size(std::span<const double> values) {
+  constexpr Longs magnitude_bits{0x7fffffffffffffffLL, 0x7fffffffffffffffLL};
+  Doubles largest = both(0.0);
+  std::size_t k = 0;
+  for (; k + lanes <= values.size(); k += lanes) {
+    const Longs bits = std::bit_cast<Longs>(load(values.data() + k)) & magnitude_bits;
+    largest = larger(std::bit_cast<Doubles>(bits), largest);
+  }
+  if (k < values.size()) largest = larger(both(std::abs(values[k])), largest);
+  return std::max(largest[0], largest[1]);
+}
+
 void ExactSum::add(std::span<const double> values) {
   for (; !values.empty(); values = values.subspan(std::min(block, values.size()))) {
-    const std::size_t count = std::min(block, values.size());
-    std::array<double, block> padded;
-    if (count < block) {
-      std::copy_n(values.begin(), count, padded.begin());
-      std::fill(padded.begin() + static_cast<std::ptrdiff_t>(count), padded.end(), 0.0);
-    }
-    const double* const x = count < block ? padded.data() : values.data();
-    const double largest = count < few ? 0.0 : largest_size(x);
-    if (!(largest < largest_extracted && largest > least_extracted)) {
-      for (std::size_t k = 0; k < count; ++k) add(x[k]);
-      continue;
-    }
-    const int e = std::ilogb(largest) + 1;
-    const double first = extractor(e);
-    const double second = extractor(e - taken_bits);
-    const Extracted sum = extract(x, first, second);
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      add(sum.leading[lane]);
-      add(sum.next[lane]);
-    }
-    if (sum.is_all) [[likely]]
-      continue;
-    for (std::size_t k = 0; k < count; ++k) add(left_of(x[k], first, second));
+    const std::span<const double> some = values.first(std::min(block, values.size()));
+    add(some, largest_size(some));
   }
+}
+
+// Leading bits are taken from all values in a common unit, where sums are exact: ExtractVector of Rump, Ogita and
+// Oishi, "Accurate floating-point summation part I", SIAM J. Sci. Comput. 31 (2008), 189, twice.
+void ExactSum::add(std::span<const double> values, double largest) {
+  const std::size_t count = values.size();
+  if (count < few || !(largest < largest_extracted && largest > least_extracted)) {
+    for (const double x : values) add(x);
+    return;
+  }
+  std::array<double, block> padded;
+  if (count < block) {
+    std::copy_n(values.begin(), count, padded.begin());
+    std::fill(padded.begin() + static_cast<std::ptrdiff_t>(count), padded.end(), 0.0);
+  }
+  const int e = std::ilogb(largest) + 1;
+  const double first = extractor(e);
+  const double second = extractor(e - taken_bits);
+  const Extracted sum = extract(count < block ? padded.data() : values.data(), first, second);
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    add(sum.leading[lane]);
+    add(sum.next[lane]);
+  }
+  if (sum.is_all) [[likely]]
+    return;
+  for (const double x : values) add(left_of(x, first, second));
 }
 
 }  // namespace carom

@@ -34,6 +34,9 @@ class ExactSum {
 
   // All of them, several times faster than one by one where most are within a factor of 2^36. Precondition: finite.
   void add(std::span<const double> values);
+  // The same where the largest of their sizes is known. Precondition: at most `block` of them.
+  void add(std::span<const double> values, double largest);
+  static constexpr std::size_t block = 256;
 
   void add(const ExactSum& other) {
     for (std::size_t k = 0; k < limbs_.size(); ++k) limbs_[k] += other.limbs_[k];
@@ -77,5 +80,8 @@ class ExactSum {
 
   std::array<std::int64_t, limb_count> limbs_{};
 };
+
+// The largest size of these; 0 of none.
+double largest_size(std::span<const double> values);
 
 }  // namespace carom

@@ -18,7 +18,7 @@ constexpr double longest_travel = 1.0;
 constexpr double few_disks = 64.0;
 constexpr double shortest_share = 1.0 / 512.0;
 constexpr double first_share = 1.0 / 32.0;
-constexpr std::size_t disks_at_once = 256;
+constexpr std::size_t disks_at_once = ExactSum::block;
 
 }  // namespace
 
@@ -29,15 +29,18 @@ void SpeedTally::add(const Disks& d, const Domain& box, std::size_t begin, std::
     const double* const vx = d.vx.data() + begin;
     const double* const vy = d.vy.data() + begin;
     for (std::size_t k = 0; k < count; ++k) v2[k] = vx[k] * vx[k] + vy[k] * vy[k];
-    for (std::size_t k = 0; k < count; ++k) largest2 = std::max(largest2, v2[k]);
+    const std::span<const double> squares_of_speeds = std::span<const double>(v2).first(count);
+    double largest = largest_size(squares_of_speeds);
+    largest2 = std::max(largest2, largest);
     if (box.shear.acts()) {
       const double* const y = d.y.data() + begin;
       for (std::size_t k = 0; k < count; ++k) {
         const double ux = vx[k] - box.shear.flow(y[k], box.height);
         v2[k] = ux * ux + vy[k] * vy[k];
       }
+      largest = largest_size(squares_of_speeds);
     }
-    squares.add(std::span<const double>(v2).first(count));
+    squares.add(squares_of_speeds, largest);
   }
 }
 

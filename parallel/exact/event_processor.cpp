@@ -56,16 +56,18 @@ void EventProcessor<scope>::enter_all(double events_a_disk) {
   calendar.begin(window_.slice_start, window_.length, window_.entries_of(first, last, worker_.number),
                  is_known ? static_cast<std::size_t>(expected) + 1 : 0, window_.looks_ahead && !(is_known && is_short));
   const auto is_active = [this](std::uint32_t i) { return !has_regions || record_[i].progress.is_active(); };
+  const CalendarEntry* const entry = window_.entry.data();
   if (is_short) {
     // Disks without an event in the window stay out until they get another.
-    calendar.insert_all([&](std::uint32_t i) { return calendar.time_of(i) <= window_.length && is_active(i); });
+    const double end = window_.length;
+    calendar.insert_all([=](std::uint32_t i) { return entry[i].time <= end && is_active(i); });
   } else {
     calendar.insert_all(is_active);
   }
   // Nothing has happened yet, so that disks that are due now may be predicted in any order; that keeps the calendar's
   // first page short.
   for (std::uint32_t i = first; i < last; ++i) {
-    if (window_.next_event_time(i) <= 0.0 && is_active(i)) predict_next_event<false>(i, 0.0);
+    if (entry[i].time <= 0.0 && is_active(i)) predict_next_event<false>(i, 0.0);
   }
 }
 

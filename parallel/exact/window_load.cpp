@@ -55,39 +55,25 @@ void WindowRun::load_disks(std::size_t begin, std::size_t end, const WindowPlan&
 // Their records, and the times of their next events as they were predicted in the window before.
 void WindowRun::load_records(std::size_t begin, std::size_t end) {
   const Disks& d = state_.disks;
-  const bool relists_stay = known_ == Known::lists_and_times && !rebuilt_;
-  // Pointers to the columns in registers: stores to records and entries could change them otherwise.
   const Disks& paths = all_->disks;
-  const double* const x = paths.x.data();
-  const double* const y = paths.y.data();
-  const double* const vx = paths.vx.data();
-  const double* const vy = paths.vy.data();
-  const DiskId* const id = d.id.data();
-  DiskRecord* const record = window_.record.data();
-  CalendarEntry* const entry = window_.entry.data();
-  const double length = length_;
-  const double early = early_by();
-  const auto load = [&](const auto& slot_of) __attribute__((always_inline)) {
-    for (std::size_t i = begin; i < end; ++i) {
-      // A contact is predicted again, since rounding at the start of paths may make another event the first.
-      const bool relists = relists_stay && record[i].partner.is_relist();
-      const std::size_t k = slot_of(i);
-      record[i].path = {0.0, x[k], y[k], vx[k], vy[k]};
-      record[i].radius = d.common_radius;
-      record[i].id = id[i];
-      record[i].partner = relists ? Partner::relist() : Partner::none();
-      record[i].version = record[i].partner_version = 0;
-      // From the new start, and a little earlier.
-      entry[i].time = (entry[i].time - length) - early;
-    }
-  };
+  const BegunPaths in{.x = paths.x.data(),
+                      .y = paths.y.data(),
+                      .vx = paths.vx.data(),
+                      .vy = paths.vy.data(),
+                      .id = d.id.data(),
+                      .radius = d.common_radius,
+                      .record = window_.record.data(),
+                      .entry = window_.entry.data(),
+                      .relists_stay = known_ == Known::lists_and_times && !rebuilt_,
+                      .length = length_,
+                      .early = early_by()};
   if (slots_ != nullptr) {
-    load([slot = slots_->data()](std::size_t i) { return std::size_t{slot[i]}; });
+    begin_paths_at(slots_->data(), in, begin, end);
   } else {
-    load([](std::size_t i) { return i; });
+    path_kernels_.begin(in, begin, end);
   }
   if (d.radius.empty()) return;
-  for (std::size_t i = begin; i < end; ++i) record[i].radius = d.radius[i];
+  for (std::size_t i = begin; i < end; ++i) in.record[i].radius = d.radius[i];
 }
 
 // The events of which disks are not known from the window before: they are predicted at this one's start.

@@ -16,6 +16,7 @@
 #include "core/step/window_plan.hpp"
 #include "parallel/exact/engine_mode.hpp"
 #include "parallel/exact/neighbour_lists.hpp"
+#include "parallel/exact/path_kernels.hpp"
 #include "parallel/exact/slice_scheduler.hpp"
 #include "parallel/exact/window_state.hpp"
 #include "parallel/threads/executor.hpp"
@@ -150,6 +151,7 @@ class WindowRun {
   WindowState window_;
   NeighbourLists lists_;
   SliceScheduler scheduler_;
+  const PathKernels path_kernels_ = choose_path_kernels();
   WindowGhosts* ghosts_ = nullptr;
   double least_largest_radius_ = 0.0;  // of other ranks' or parts' disks
   double largest_radius_ = 0.0;

@@ -7,38 +7,15 @@
 
 namespace carom {
 
-// Disks [begin, end), where neither gravity nor a shear acts: what store_paths does there. The place of a disk that is
-// gone is not a number, and stays so.
+// Disks [begin, end), where neither gravity nor a shear acts: what store_paths does there.
 void WindowRun::store_straight(std::size_t begin, std::size_t end, double length) {
   Disks& d = state_.disks;
   const Domain& box = window_.rules.box;
-  double* const x = d.x.data();
-  double* const y = d.y.data();
-  double* const vx = d.vx.data();
-  double* const vy = d.vy.data();
-  const DiskRecord* const record = window_.record.data();
-  const double width = box.periodic_x() ? box.width : HUGE_VAL;
-  const double height = box.periodic_y() ? box.height : HUGE_VAL;
-  const double left = box.periodic_x() ? 0.0 : -HUGE_VAL;
-  const double bottom = box.periodic_y() ? 0.0 : -HUGE_VAL;
-  for (std::size_t i = begin; i < end; ++i) {
-    const PathSegment& p = record[i].path;
-    const double s = length - p.start;
-    double px = p.x;
-    double py = p.y;
-    if (p.start != length) [[likely]] {
-      px += p.vx * s;
-      py += p.vy * s;
-    }
-    if (px < left || px >= width) [[unlikely]]
-      px = box.periodic_x() ? wrap(px, width) : px;
-    if (py < bottom || py >= height) [[unlikely]]
-      py = box.periodic_y() ? wrap(py, height) : py;
-    x[i] = px;
-    y[i] = py;
-    vx[i] = p.vx;
-    vy[i] = p.vy;
-  }
+  EndedPaths paths{window_.record.data(), length,    d.x.data(), d.y.data(), d.vx.data(),
+                   d.vy.data(),           -HUGE_VAL, HUGE_VAL,   -HUGE_VAL,  HUGE_VAL};
+  if (box.periodic_x()) paths.left = 0.0, paths.right = box.width;
+  if (box.periodic_y()) paths.bottom = 0.0, paths.top = box.height;
+  path_kernels_.end(paths, begin, end);
 }
 
 ImpactTally WindowRun::store_paths(const WindowPlan& plan, std::vector<unsigned char>& gone) {
