@@ -113,11 +113,18 @@ std::string text_name(const std::string& text) {
   return fmt::format("{}, too large for the 64 bits of a whole number; write it as {:.17g}", text, value);
 }
 
+// Is it a length of a box that the scene gives by a packing fraction, and not by this key?
+bool is_made_to_fit(const toml::table* root, std::string_view key) {
+  if (root == nullptr || (key != "box.width" && key != "box.height")) return false;
+  return root->at_path("box.packing_fraction") && !root->at_path(key);
+}
+
 constexpr double largest_exact_count = 9007199254740992.0;  // 2^53: above it a float cannot tell neighbours apart
 
 }  // namespace
 
 std::string SceneOrigin::where(std::string_view key) const {
+  if (is_made_to_fit(root, key)) return fmt::format("{}: {} of the box", where("box.packing_fraction"), key.substr(4));
   for (auto it = overrides.rbegin(); it != overrides.rend(); ++it) {
     if (it->key == key) return fmt::format("--set {}", key);
     if (lies_at_or_below(key, it->key)) return fmt::format("--set {}: {}", it->key, key);

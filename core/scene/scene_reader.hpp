@@ -42,7 +42,7 @@ struct SceneOrigin {
   FrameReader frames;  // how to read a frame of a trajectory; empty where there is no way to
 
   // "file:line: key", or "--set key" where an override made it. A missing key has the place of the table it should be
-  // in.
+  // in; the width or height of a box that is made to fit, that of the packing fraction, and is named behind it.
   std::string where(std::string_view key) const;
 
   // Throws InputError: where(key), what is wrong, what was expected.

@@ -165,6 +165,17 @@ TEST(BadBox, SmallerThanADisk) {
               AllOf(StartsWith("gas.toml:6: box.height: 3.9 is too small"), HasSubstr("two diameters")));
 }
 
+// A box that is made to fit has no key width or height to blame.
+TEST(BadBox, MadeToFitTheAreaAndSmallerThanADisk) {
+  const std::string flat = replaced(sound_scene, "width = 20.0\nheight = 10.0", "packing_fraction = 0.5\naspect = 20");
+  EXPECT_THAT(complaint(flat), StartsWith("gas.toml:5: box.packing_fraction: height of the box: 0.97"));
+  EXPECT_THAT(complaint(flat), HasSubstr(" is too small for a disk of radius 1; expected at least 2, the diameter"));
+  EXPECT_THAT(complaint(flat, {{"box.packing_fraction", "0.4"}, {"box.aspect", "0.05"}}),
+              StartsWith("--set box.packing_fraction: width of the box: 1.08"));
+  EXPECT_THAT(complaint(flat, {{"box.packing_fraction", "1e-26"}}),
+              StartsWith("--set box.packing_fraction: width of the box: 13729368492956"));
+}
+
 TEST(BadBox, SizeSaidTwiceOrOddly) {
   EXPECT_THAT(complaint(replaced(sound_scene, "height = 10.0", "packing_fraction = 0.1")),
               StartsWith("gas.toml:6: box.packing_fraction: given beside width; expected either"));
