@@ -38,17 +38,15 @@ RunOutcome run_shown(const CarryOptions& options, const Scene& scene, RunSetting
 // Opens the page of the run, and makes it first unless the scene asked for it. One left from an earlier run is
 // replaced.
 void view_results(const CarryOptions& options, const Scene& scene, const std::filesystem::path& folder) {
-  if (scene.output.view) {
-    const std::filesystem::path page = std::filesystem::absolute(folder / "view.html");
-    if (std::filesystem::exists(page)) open_page(page.string());
-    return;
+  if (!scene.output.view) {
+    ViewOptions view;
+    view.source = folder.string();
+    view.quiet = options.quiet || options.json;
+    view.force = true;
+    command_view(view);
   }
-  ViewOptions view;
-  view.source = folder.string();
-  view.open = true;
-  view.quiet = options.quiet || options.json;
-  view.force = true;
-  command_view(view);
+  const std::filesystem::path page = std::filesystem::absolute(folder / "view.html");
+  if (std::filesystem::exists(page)) open_page(page.string(), "--view", options.quiet);
 }
 
 }  // namespace

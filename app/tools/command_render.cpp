@@ -62,7 +62,10 @@ PictureLook look_of(const RenderOptions& options, const std::optional<Scene>& sc
 
 // The colours reach over what all frames hold, so that every picture and movie of a run has the same.
 FrameStyle style_of(const Recording& recording, const RenderOptions& options, const Survey& survey) {
-  const std::optional<Scene> scene = scene_of(recording, print_warning);
+  const WarningSink warn = [&](std::string_view text) {
+    if (!options.quiet) print_warning(text);
+  };
+  const std::optional<Scene> scene = scene_of(recording, warn);
   const PictureLook look = look_of(options, scene);
   if (scene) return frame_style(*scene, look, survey.seen);
   return frame_style(recording.trajectory.string(), survey.box, look, survey.seen);

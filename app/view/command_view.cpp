@@ -20,7 +20,7 @@ int command_view(const ViewOptions& options) {
   check_page_file(file, options.force);
   ViewSettings settings;
   if (options.max_size) settings.most_bytes = *options.max_size;
-  settings.warn = print_warning;
+  if (!options.quiet) settings.warn = print_warning;
   const ViewMade made = write_view(file, recording, settings);
   if (!options.quiet) {
     for (const std::string& sentence : made.left_out) print_note(fmt::format("the page {}", sentence));
@@ -28,7 +28,7 @@ int command_view(const ViewOptions& options) {
                            static_cast<double>(made.page.size()) / 1e6));
     print_out(fmt::format("{}\n", file.string()));
   }
-  if (options.open) open_page(fs::absolute(file).string());
+  if (options.open) open_page(fs::absolute(file).string(), "--open", options.quiet);
   return 0;
 }
 

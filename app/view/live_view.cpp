@@ -21,7 +21,7 @@ int view_live(const ViewOptions& options) {
   if (options.file) fail_input("-o", "is for a page that stays", "expected none with --live");
   ViewSettings settings;
   if (options.max_size) settings.most_bytes = *options.max_size;
-  settings.warn = print_warning;
+  if (!options.quiet) settings.warn = print_warning;
   LiveRun run(options.source, settings);
   bool asked = false;
   LoopbackServer server([&](std::string_view path) {
@@ -30,7 +30,7 @@ int view_live(const ViewOptions& options) {
   });
   print_out(fmt::format("{}\n", server.link()));
   if (!options.quiet) print_note("the link is for this computer alone; Ctrl-C ends it, and so does the end of the run");
-  if (options.open) open_page(server.link());
+  if (options.open) open_page(server.link(), "--open", options.quiet);
   while (!run.ended()) {
     run.read(reading_s);
     server.serve(serving_ms);

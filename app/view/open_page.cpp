@@ -7,16 +7,14 @@
 
 namespace carom {
 
-void open_page(const std::string& page) {
+void open_page(const std::string& page, std::string_view option, bool quiet) {
+  const auto warn = [&](std::string_view what) {
+    if (!quiet) print_warning(fmt::format("{}: {}; open the page in a browser by hand", option, what));
+  };
   const std::string opener = find_program("xdg-open");
-  if (opener.empty()) {
-    print_warning("--open: there is no xdg-open; open the page in a browser by hand");
-    return;
-  }
+  if (opener.empty()) return warn("there is no xdg-open");
   ChildProcess browser({opener, page}, ".", "/dev/null");
-  if (const int status = browser.wait(); status != 0) {
-    print_warning(fmt::format("--open: xdg-open ended with status {}; open the page in a browser by hand", status));
-  }
+  if (const int status = browser.wait(); status != 0) warn(fmt::format("xdg-open ended with status {}", status));
 }
 
 }  // namespace carom

@@ -202,6 +202,8 @@ TEST_F(Render, ASceneOfAnotherBoxIsNotThatOfTheTrajectory) {
     EXPECT_EQ(shell("cp b/trajectory.xyz a").status, 0);
     EXPECT_THAT(carom("render a --force -o a.svg").err, HasSubstr(told)) << other;
     EXPECT_THAT(carom("view a --force -o a.html").err, HasSubstr(told)) << other;
+    EXPECT_EQ(carom("render a --force -o a.svg --quiet").err, "") << other;
+    EXPECT_EQ(carom("view a --force -o a.html --quiet").err, "") << other;
   }
 }
 

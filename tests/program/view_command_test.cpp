@@ -188,7 +188,8 @@ TEST_F(View, OpensThePageWithTheDesktopsOpener) {
   EXPECT_EQ(text_of(at("opened")), fs::canonical(at("out/view.html")).string() + "\n");
   const Outcome none = shell("PATH=/nowhere $C view out --open --force");
   EXPECT_EQ(none.status, 0);
-  EXPECT_THAT(none.err, HasSubstr("warning: --open: there is no xdg-open"));
+  EXPECT_THAT(none.err, HasSubstr("warning: --open: there is no xdg-open; open the page in a browser by hand\n"));
+  EXPECT_EQ(shell("PATH=/nowhere $C view out --open --force --quiet").err, "");
 }
 
 TEST_F(View, ASceneCanAskForIt) {
@@ -255,6 +256,12 @@ TEST_F(View, ARunCanEndWithIt) {
   EXPECT_THAT(o.out, testing::EndsWith("}\n"));
   EXPECT_THAT(text_of(at("out/view.html")), StartsWith("<!doctype html>"));
   EXPECT_EQ(text_of(at("opened")), fs::canonical(at("out/view.html")).string() + "\n");
+  // Without a browser: whether the page is made for this option alone or for the scene too, the option is named.
+  for (const std::string asked : {"", " --set output.view=true"}) {
+    const std::string again = "PATH=/nowhere $C run gas.toml -o out --force --t-end 0.2 --view" + asked;
+    EXPECT_THAT(shell(again).err, HasSubstr("warning: --view: there is no xdg-open; open the page"));
+    EXPECT_EQ(shell(again + " --quiet").err, "");
+  }
   std::string bare = gas;
   bare.erase(bare.find("trajectory = "), std::string("trajectory = \"xyz\"\n").size());
   write("bare.toml", bare);
