@@ -54,7 +54,7 @@ void add_run_options(CLI::App* run, OptionWords& words) {
   add_value(run, "--max-walltime", words.walltime, "TIME",
             "stop with a checkpoint after so long, such as 90 s, 30 min or 2h");
   run->add_flag("--json", words.json, "print the summary as JSON, and nothing else, on standard output");
-  run->add_flag("--quiet", words.quiet, "print nothing but errors");
+  run->add_flag("--quiet", words.quiet, "print nothing but errors, and where a run was stopped");
   run->add_flag("--force", words.force, "replace the results of an earlier run in the folder");
   run->add_flag("--view", words.view, "when done, make DIR/view.html, which plays the run, and open it in the browser");
   run->add_flag("--strict", words.strict, "end with status 3 at the first warning of a limit of the method");

@@ -79,7 +79,7 @@ inline constexpr SceneKey keys[] = {
      "How a wall moves, whatever meets it: it reflects disks in its own frame. Not with Brownian motion or "
      "`temperature`.",
      "right = { motion = { velocity = [-0.1, 0.0] } }", "`{ velocity = ... }` or `{ vibrate = ... }`"},
-    {"box.side", "place", non_negative, Dimension::length, "as near to the edge as its motion allows",
+    {"box.side", "place", non_negative, Dimension::length, "the edge; of a vibration its amplitude before it",
      "Of a wall that moves: its x or y at time 0, or at the middle of its vibration. The box stays the rectangle that "
      "it is; a side moves within it.",
      "right = { place = 50.0, motion = { velocity = [0.1, 0.0] } }"},

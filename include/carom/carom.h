@@ -197,7 +197,7 @@ CAROM_API carom_status carom_query_box(const carom_world* world, double x0, doub
 CAROM_API carom_status carom_nearest(const carom_world* world, double x, double y, uint32_t* id, double* distance);
 /* The first disk or inner wall on a line of this length from (x, y) in the box along (dx, dy), of any length but 0. The
  * line goes through periodic sides, and ends at others. CAROM_NOT_FOUND where it meets nothing; CAROM_INPUT for a
- * length below 0, or of more than 10^6 boxes. */
+ * length below 0, or where the line is longer than 10^6 times the box's shorter side. */
 CAROM_API carom_status carom_cast_ray(const carom_world* world, double x, double y, double dx, double dy, double length,
                                       carom_hit* hit);
 
