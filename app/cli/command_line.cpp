@@ -182,6 +182,10 @@ Command parse_command_line(int given, const char* const* given_words) {
   describe_chart(chart, words);
   docs->add_option("PAGE", words.first, "scene: every key of a scene, column of series.csv and key of --json")
       ->type_name("");
+  for (CLI::App* const command : {run, check, resume, compare, render, view, sweep, chart, docs}) {
+    // --strict=0 would be no --strict.
+    for (CLI::Option* const option : command->get_options()) option->disable_flag_override();
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {

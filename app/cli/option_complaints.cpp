@@ -54,6 +54,11 @@ void check_leftovers(const CLI::App* command) {
 
 void fail_as_one_line(const CLI::ParseError& error) {
   const std::string text = error.what();
+  constexpr std::string_view with_value = " was given a disallowed flag override";  // in the words of CLI11
+  if (text.ends_with(with_value)) {
+    fail_input(fmt::format("--{}", text.substr(0, text.size() - with_value.size())), "has a value, and takes none",
+               "expected it alone");
+  }
   const std::string where = text.substr(0, text.find_first_of(": "));
   if (where.starts_with("-") && dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
     fail_input(where, "its value is missing", "see --help");

@@ -50,6 +50,8 @@ TEST_F(LongCommandLine, OtherBadUsageOfRunIsOneLineWithStatusTwo) {
       {"run --", "run: no scene file given"},
       {"run small.toml other.toml", "one argument too many, \"other.toml\""},
       {"run small.toml --dt", "--dt: its value is missing"},
+      {"run small.toml --strict=0", "--strict: has a value, and takes none; expected it alone"},
+      {"check small.toml --json=none", "--json: has a value, and takes none; expected it alone"},
       {"run small.toml --dt 0.1x", "--dt: \"0.1x\" is not a number"},
       {"run small.toml --dt nan", "--dt: \"nan\" is not a number"},
       {"run small.toml --dt -1", "--dt: is -1; expected a number above 0"},
