@@ -284,7 +284,8 @@ const JsonKey<Told> check_keys[] = {
      [](const Told& t) -> Json { return json_number(t.found.packing_fraction); }},
     {"dt", "time", "the step; 0 where the scene gives none", [](const Told& t) -> Json { return t.scene.run.dt; }},
     {"safe_dt", "time",
-     "the longest step that is not split, with `exact` the longest of Brownian motion; null if any is",
+     "the longest step that time stepping does not split, with `exact` and Brownian motion the longest between two "
+     "draws; null if any is",
      [](const Told& t) -> Json { return json_number(t.found.steps.safe()); }},
     {"landing_speed", "length / time", "the largest after a fall; 0 without gravity",
      [](const Told& t) -> Json { return json_number(t.found.steps.landing_speed); }},
