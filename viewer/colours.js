@@ -16,8 +16,8 @@ const viridis = [
   0x440154, 0x481a6c, 0x472f7d, 0x414487, 0x39568c, 0x31688e, 0x2a788e, 0x23888e, 0x1f988b, 0x22a884, 0x35b779,
   0x54c568, 0x7ad151, 0xa5db36, 0xd2e21b, 0xfde725,
 ];
-// Okabe and Ito: they stay apart for all common kinds of colour blindness.
-export const groupColours = [0x0072b2, 0xe69f00, 0x009e73, 0xcc79a7, 0x56b4e9, 0xd55e00, 0xf0e442, 0x999999];
+// Okabe and Ito: they stay apart for all common kinds of colour blindness. Those of movies (io/movie/colour_scale.cpp).
+export const groupColours = [0x0072b2, 0xe69f00, 0x009e73, 0xd55e00, 0xcc79a7, 0x56b4e9, 0xf0e442, 0x999999];
 
 export const parts = (colour) => [colour >> 16, (colour >> 8) & 255, colour & 255];
 export const cssColour = (colour) => `#${colour.toString(16).padStart(6, "0")}`;

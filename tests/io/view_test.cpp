@@ -1,4 +1,5 @@
 // View files: what is packed comes back within half a step, whatever comes and goes; damage is named with its frames.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 #include <random>
 
 #include "core/base/check.hpp"
+#include "io/movie/colour_scale.hpp"
 #include "io/view/base64.hpp"
 #include "io/view/view_encoder.hpp"
 #include "io/view/view_maker.hpp"
@@ -317,6 +319,19 @@ TEST(ViewMaker, ThePageIsNoLongerThanAskedForAndSaysWhatItLacks) {
   EXPECT_LT(few.disks, 60U);
   EXPECT_EQ(few.left_out.size(), 2U);
   EXPECT_THROW(made_of(1000), InputError);
+}
+
+// A group has one colour in the movie of a run and in its page.
+TEST(ViewMaker, GroupsHaveTheColoursOfMovies) {
+  const auto frames = random_frames(12, 2, 4, false);
+  const ViewMade made = make_view([&] { return std::make_unique<Replayed>(frames); }, "test", {}, {});
+  std::string colours;
+  for (DiskId group = 0; group < 8; ++group) {
+    const Colour c = group_colour(group);
+    colours += fmt::format("{}0x{:06x}", group > 0 ? ", " : "",
+                           (std::lround(c.red) << 16) + (std::lround(c.green) << 8) + std::lround(c.blue));
+  }
+  EXPECT_THAT(made.page, HasSubstr("[" + colours + "]"));
 }
 
 }  // namespace
