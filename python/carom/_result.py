@@ -31,6 +31,8 @@ class Trajectory:
     def file(self) -> str:
         """With the frames; while a run goes on, in carom-unfinished of its folder."""
         path = self._path
+        if not os.path.exists(path):
+            raise SceneError(f"{path}: does not exist; expected a folder of a run, or a trajectory")
         if not os.path.isdir(path):
             return path
         file = _carom.trajectory_in(path) or _carom.trajectory_in(os.path.join(path, "carom-unfinished"))

@@ -243,7 +243,7 @@ def test_results_as_columns_and_frames(form, tmp_path):
     assert any("pair_correlation" in name for name in result.analysis)
     with pytest.raises(carom.SceneError, match="holds"):
         carom.run(scene, out=tmp_path / "run")
-    with pytest.raises(carom.SceneError):
+    with pytest.raises(carom.SceneError, match="nothing.xyz: does not exist; expected a folder of a run, or a trajectory"):
         carom.Trajectory(tmp_path / "nothing.xyz")
 
 
