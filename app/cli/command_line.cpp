@@ -47,8 +47,9 @@ constexpr const char* early_stop =
     "second Ctrl-C quits at once.";
 
 // What carrying a run out has, from its start or from a checkpoint.
-void add_run_options(CLI::App* run, OptionWords& words) {
-  add_value(run, "--engine", words.engine, "parallel|reference", "default parallel; both give the same bits");
+void add_run_options(CLI::App* run, OptionWords& words, const std::string& engine) {
+  add_value(run, "--engine", words.engine, "parallel|reference",
+            fmt::format("default {}; both give the same bits", engine));
   add_value(run, "--threads", words.threads, "N", "threads of the parallel engine; default all cores");
   add_value(run, "--ranks", words.ranks, "N", "processes that share the box, over MPI; methods pairwise and exact");
   add_value(run, "--max-walltime", words.walltime, "TIME",
@@ -63,7 +64,7 @@ void add_run_options(CLI::App* run, OptionWords& words) {
 void describe_run(CLI::App* run, OptionWords& words) {
   add_scene_options(run, words);
   add_value(run, "-o,--output", words.folder, "DIR", "folder for the results; default out/<name of the scene>");
-  add_run_options(run, words);
+  add_run_options(run, words, "parallel");
   run->footer(early_stop);
 }
 
@@ -72,7 +73,7 @@ void describe_resume(CLI::App* resume, OptionWords& words) {
       ->type_name("");
   add_value(resume, "-o,--output", words.folder, "DIR", "another folder, which gets copies of the files so far");
   add_value(resume, "--t-end", words.scene_values[t_end_option], "T", "another simulated time at which the run ends");
-  add_run_options(resume, words);
+  add_run_options(resume, words, "that of the run so far");
   resume->footer(early_stop);
 }
 

@@ -150,6 +150,9 @@ TEST_F(CommandLine, HelpAndVersion) {
   for (const char* const command : {"run", "resume"}) {
     EXPECT_THAT(carom(std::string(command) + " --help").out, HasSubstr("over MPI; methods pairwise and exact\n"));
   }
+  EXPECT_THAT(carom("run --help").out, HasSubstr("--engine parallel|reference default parallel; both"));
+  EXPECT_THAT(carom("resume --help").out,
+              HasSubstr("--engine parallel|reference default that of the run so far; both"));
 }
 
 TEST_F(CommandLine, HelpIsAWordToo) {
