@@ -132,17 +132,21 @@ void read_movie(const TableReader& output, OutputPlan& plan) {
   PictureLook& look = plan.look;
   look.colour = static_cast<ColourBy>(movie.choice_or_initial("colour"));
   look.fps = movie.number_or_initial("fps");
-  const auto check = [&movie](const char* name, const std::string& complaint) {
-    if (!complaint.empty()) movie.fail(name, "is out of its bounds", complaint);
+  const auto check = [&movie](const char* name, const std::string& value, const std::string& complaint) {
+    if (!complaint.empty()) movie.fail(name, fmt::format("is {}", value), complaint);
   };
-  check("fps", complaint_of_fps(look.fps));
+  const auto listed = [](const std::array<double, 2>& p) { return fmt::format("[{}, {}]", p[0], p[1]); };
+  check("fps", fmt::format("{}", look.fps), complaint_of_fps(look.fps));
   if (const auto size = two_numbers(movie, "size")) {
-    check("size", complaint_of_size((*size)[0], (*size)[1]));
+    check("size", listed(*size), complaint_of_size((*size)[0], (*size)[1]));
     look.width = static_cast<int>((*size)[0]);
     look.height = static_cast<int>((*size)[1]);
   }
   look.range = two_numbers(movie, "range");
-  if (look.range) check("range", complaint_of_range(look.colour, (*look.range)[0], (*look.range)[1]));
+  if (look.range) {
+    const auto [low, high] = *look.range;
+    check("range", listed(*look.range), complaint_of_range(look.colour, low, high));
+  }
 }
 
 }  // namespace carom

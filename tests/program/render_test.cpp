@@ -225,11 +225,13 @@ TEST_F(Render, KeysOfTheSceneAreChecked) {
   };
   EXPECT_THAT(message("3"), HasSubstr("output.movie: is an integer; expected true or false, or a table"));
   EXPECT_THAT(message("{ colour = \"red\" }"), HasSubstr("output.movie.colour: "));
-  EXPECT_THAT(message("{ fps = 2000 }"), HasSubstr("expected from 0.1 to 1000 frames a second"));
+  EXPECT_THAT(message("{ fps = 2000 }"), HasSubstr("fps: is 2000; expected from 0.1 to 1000 frames a second"));
   EXPECT_THAT(message("{ size = [640] }"), HasSubstr("has 1 number; expected two numbers"));
-  EXPECT_THAT(message("{ size = [640, 300] }"), HasSubstr("even numbers from 320 to 8192"));
-  EXPECT_THAT(message("{ range = [1, 1] }"), HasSubstr("expected two numbers, the lower first"));
-  EXPECT_THAT(message("{ colour = \"group\", range = [0, 1] }"), HasSubstr("groups have colours of their own"));
+  EXPECT_THAT(message("{ size = [640, 300] }"),
+              HasSubstr("size: is [640, 300]; expected a width and a height in pixels, even"));
+  EXPECT_THAT(message("{ range = [1, 1] }"), HasSubstr("range: is [1, 1]; expected two numbers, the lower first"));
+  EXPECT_THAT(message("{ colour = \"group\", range = [0, 1] }"),
+              HasSubstr("is [0, 1]; groups have colours of their own"));
   EXPECT_THAT(message("{ colr = \"group\" }"), HasSubstr("(nearest: colour)"));
 }
 
