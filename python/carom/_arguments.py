@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import operator
 import os
+from typing import Union
 
 from ._carom import SceneError
+
+AnyPath = Union[str, bytes, os.PathLike]
 
 _most_threads = 4096  # as carom.h
 _last_id = 2**32 - 1  # ids have 32 bits

@@ -1,6 +1,6 @@
 """Disks as numpy columns: copies, frames, and views of what the engine has in memory."""
 
-from typing import Mapping, NamedTuple, Tuple
+from typing import Any, Mapping, NamedTuple, Tuple
 
 import numpy as np
 
@@ -56,7 +56,7 @@ class Frame(Disks):
         self.box = (width, height)
         self.periodic = (periodic_x, periodic_y)
 
-    def to_ase(self):
+    def to_ase(self) -> Any:
         """ase.Atoms: positions (z = 0), masses, velocities, periodic sides; radius and id as arrays of these names."""
         return _export.ase_atoms(self)
 
@@ -65,7 +65,7 @@ class Frame(Disks):
         takes all sides as periodic, unless its box is told otherwise."""
         return _export.freud_system(self)
 
-    def to_gsd(self):
+    def to_gsd(self) -> Any:
         """A snapshot of gsd.hoomd, in two dimensions and around the middle of the box, with diameters, masses and images (of
         a trajectory's frames, where a side is periodic); HOOMD, freud and OVITO take it. Its step is 0: GSD has no times."""
         return _export.gsd_snapshot(self)

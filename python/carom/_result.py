@@ -6,7 +6,7 @@ import json
 import operator
 import os
 import pathlib
-from typing import Any, Iterator, List, Mapping, Optional, Sequence, Union, overload
+from typing import Any, Iterator, List, Mapping, Optional, Sequence, overload
 
 import numpy as np
 
@@ -22,7 +22,7 @@ class Trajectory:
     and [k] read up to there; [1:3] is a list of frames. Raises SceneError where there is none, or it is damaged.
     """
 
-    def __init__(self, path: Union[str, bytes, "os.PathLike[Any]"]):
+    def __init__(self, path: _arguments.AnyPath):
         self._path = _arguments.path(path)
         self._counted = (None, 0)  # the file as it was, and its frames
         _carom.open_trajectory(self.file)
@@ -84,7 +84,7 @@ class Trajectory:
                 break
         return found
 
-    def show(self, file=None, max_size: Optional[int] = None, force: bool = False):
+    def show(self, file: Optional[_arguments.AnyPath] = None, max_size: Optional[int] = None, force: bool = False) -> Any:
         """The viewer, as `carom view` makes it: one HTML page that plays the run, of at most max_size bytes.
 
         In a notebook it is shown there. Elsewhere it is written to file (view.html in the run's folder, or where the
@@ -98,12 +98,12 @@ class Trajectory:
         """An ase.Atoms a frame, as Frame.to_ase."""
         return [frame.to_ase() for frame in self]
 
-    def to_mdanalysis(self):
+    def to_mdanalysis(self) -> Any:
         """An MDAnalysis.Universe with all frames in memory: positions, velocities, times, box (its height in z is 1), masses,
         radii. Raises ValueError where frames have different disks."""
         return _export.mdanalysis_universe(self)
 
-    def to_gsd(self, path, force: bool = False) -> None:
+    def to_gsd(self, path: _arguments.AnyPath, force: bool = False) -> None:
         """Writes a GSD file, a snapshot a frame as Frame.to_gsd; the step is the frame's number. Raises SceneError where the
         file exists: force replaces it."""
         _export.write_gsd(path, self, force)
@@ -133,8 +133,16 @@ class Column(np.ndarray):
     def __deepcopy__(self, _):
         return self.__copy__()
 
-    unit = property(lambda self: self.attributes.get("unit"), doc="\"time\", \"length\", ..., or None")
-    standard_error = property(lambda self: self.attributes.get("standard_error"), doc="of the mean, or None")
+    @property
+    def unit(self) -> Optional[str]:
+        """Such as "time" or "length"; None where the file has none."""
+        return self.attributes.get("unit")
+
+    @property
+    def standard_error(self) -> Optional[float]:
+        """Of the mean, or None."""
+        return self.attributes.get("standard_error")
+
 
 
 def _attributes(item) -> dict:
@@ -155,7 +163,7 @@ class Result:
         self.folder = folder
 
     @classmethod
-    def load(cls, folder: Union[str, bytes, "os.PathLike[Any]"]) -> "Result":
+    def load(cls, folder: _arguments.AnyPath) -> "Result":
         """That of a run that is done, by `carom run`, a sweep or carom.run. Raises SceneError where the folder holds none."""
         folder = _arguments.path(folder)
         file = os.path.join(folder, "summary.json")
@@ -169,7 +177,10 @@ class Result:
             raise SceneError(f"{file}: has no state_hash; expected the folder of a run that is done")
         return cls(summary, folder)
 
-    hash = property(lambda self: self.summary["state_hash"], doc="16 hexadecimal digits")
+    @property
+    def hash(self) -> str:
+        """16 hexadecimal digits."""
+        return self.summary["state_hash"]
 
     def _file(self, name):
         if self.folder is None:
@@ -214,7 +225,7 @@ class Result:
         s = self.summary
         return f"<carom.Result, {s['particles']} disks, t = {s['time']:g}, hash {self.hash}, folder {self.folder!r}>"
 
-    def show(self, file=None, max_size: Optional[int] = None, force: bool = False):
+    def show(self, file: Optional[_arguments.AnyPath] = None, max_size: Optional[int] = None, force: bool = False) -> Any:
         """The viewer of the trajectory, as Trajectory.show."""
         return self.frames.show(file, max_size, force)
 

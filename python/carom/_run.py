@@ -17,8 +17,8 @@ from ._simulation import engine as _engine
 from ._text import in_words_of_python as _in_words_of_python, words_of_python as _words_of_python
 
 
-def run(scene: Scene, out=None, threads: Optional[int] = None, engine: str = "parallel", force: bool = False,
-        strict: bool = False, warn: Optional[Callable[[str], Any]] = None) -> Result:
+def run(scene: Scene, out: Optional[_arguments.AnyPath] = None, threads: Optional[int] = None, engine: str = "parallel",
+        force: bool = False, strict: bool = False, warn: Optional[Callable[[str], Any]] = None) -> Result:
     """The whole of `carom run`: steps to t_end and writes what the scene asks for to the folder out; without out, no files.
 
     force replaces earlier results there; strict raises PhysicsError at the first warning of the physics; warn gets each

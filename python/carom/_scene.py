@@ -21,7 +21,7 @@ class Scene:
             self._scene = _carom.parse_scene(_toml(tables), "scene", "", _overrides(changes))
 
     @classmethod
-    def load(cls, path, changes: Mapping[str, Any] = {}) -> "Scene":
+    def load(cls, path: _arguments.AnyPath, changes: Mapping[str, Any] = {}) -> "Scene":
         """The scene of a TOML file. Raises SceneError (file, line, key, what was expected)."""
         return cls._of(_carom.load_scene, _arguments.path(path), _overrides(changes))
 
@@ -54,11 +54,30 @@ class Scene:
                             "carom.Scene({...}) takes a dictionary")
         return scene._scene
 
-    title = property(lambda self: self._scene.title, doc="str")
-    width = property(lambda self: self._scene.width, doc="of the box; length")
-    height = property(lambda self: self._scene.height, doc="of the box; length")
-    t_end = property(lambda self: self._scene.t_end, doc="simulated time at which a run ends")
-    seed = property(lambda self: self._scene.seed, doc="of the random numbers")
+    @property
+    def title(self) -> str:
+        """Empty where the scene has none."""
+        return self._scene.title
+
+    @property
+    def width(self) -> float:
+        """Of the box; length."""
+        return self._scene.width
+
+    @property
+    def height(self) -> float:
+        """Of the box; length."""
+        return self._scene.height
+
+    @property
+    def t_end(self) -> float:
+        """Simulated time at which a run ends."""
+        return self._scene.t_end
+
+    @property
+    def seed(self) -> int:
+        """Of the random numbers."""
+        return self._scene.seed
 
     @property
     def warnings(self) -> list:

@@ -70,12 +70,35 @@ class Simulation:
     def __reduce__(self):
         return _of_bytes, (self.to_bytes(), self._sim.threads, self._sim.engine)
 
-    time = property(lambda self: self._sim.time, doc="end of the last step")
-    done = property(lambda self: self._sim.done, doc="has the scene's t_end been reached?")
-    steps = property(lambda self: self._sim.steps, doc="made; with exact, windows")
-    collisions = property(lambda self: self._sim.collisions, doc="of two disks")
-    wall_collisions = property(lambda self: self._sim.wall_collisions, doc="of a disk and a wall")
-    hash = property(lambda self: self._sim.hash(), doc="state_hash of the command line, 16 hexadecimal digits")
+    @property
+    def time(self) -> float:
+        """End of the last step."""
+        return self._sim.time
+
+    @property
+    def done(self) -> bool:
+        """Has the scene's t_end been reached?"""
+        return self._sim.done
+
+    @property
+    def steps(self) -> int:
+        """Made; with exact, windows."""
+        return self._sim.steps
+
+    @property
+    def collisions(self) -> int:
+        """Of two disks."""
+        return self._sim.collisions
+
+    @property
+    def wall_collisions(self) -> int:
+        """Of a disk and a wall."""
+        return self._sim.wall_collisions
+
+    @property
+    def hash(self) -> str:
+        """The state_hash of the command line, 16 hexadecimal digits."""
+        return self._sim.hash()
 
     def __len__(self):
         return self._sim.count
@@ -158,7 +181,8 @@ class Simulation:
         differ, v.spin where they are rough. step and every change raise RuntimeError while it, or an array of it, is in use."""
         return View(self._sim.view())
 
-    def add(self, x, y, vx=0.0, vy=0.0, radius=1.0, mass=1.0, spin=0.0) -> Optional[int]:
+    def add(self, x: float, y: float, vx: float = 0.0, vy: float = 0.0, radius: float = 1.0, mass: float = 1.0,
+            spin: float = 0.0) -> Optional[int]:
         """A new disk; its id, or None where it would overlap another, an inner wall or a side that has moved in. spin counts
         where disks are rough. Brownian disks forget the velocity. Raises SceneError for numbers out of range."""
         try:
@@ -178,21 +202,21 @@ class Simulation:
         except TypeError:
             raise _arguments.no_numbers(vx=vx, vy=vy) from None
 
-    def disks_in(self, x0, y0, x1, y1) -> np.ndarray:
+    def disks_in(self, x0: float, y0: float, x1: float, y1: float) -> np.ndarray:
         """Ids, ascending, of the disks whose centres lie in a rectangle; it may reach across periodic sides."""
         try:
             return self._sim.disks_in(x0, y0, x1, y1)
         except TypeError:
             raise _arguments.no_numbers(x0=x0, y0=y0, x1=x1, y1=y1) from None
 
-    def nearest(self, x, y) -> Optional[tuple]:
+    def nearest(self, x: float, y: float) -> Optional[tuple]:
         """(id, distance) of the disk whose centre is nearest, over periodic sides; None without disks."""
         try:
             return self._sim.nearest(x, y)
         except TypeError:
             raise _arguments.no_numbers(x=x, y=y) from None
 
-    def cast_ray(self, x, y, dx, dy, length) -> Optional[Hit]:
+    def cast_ray(self, x: float, y: float, dx: float, dy: float, length: float) -> Optional[Hit]:
         """The first disk or inner wall on a line of this length from (x, y) along (dx, dy); None where there is none."""
         try:
             hit = self._sim.cast_ray(x, y, dx, dy, length)
@@ -200,7 +224,7 @@ class Simulation:
             raise _arguments.no_numbers(x=x, y=y, dx=dx, dy=dy, length=length) from None
         return None if hit is None else Hit(*hit)
 
-    def save(self, path) -> None:
+    def save(self, path: _arguments.AnyPath) -> None:
         """Everything from which to go on, bit for bit, in a file that `carom resume` takes too, in place of an older one.
         Raises SceneError where a file that is no checkpoint has the name."""
         self._sim.save(_arguments.path(path))
@@ -209,7 +233,7 @@ class Simulation:
         """The same in memory, for from_bytes."""
         return self._sim.save_bytes()
 
-    def from_bytes(self, saved) -> None:
+    def from_bytes(self, saved: Any) -> None:
         """Goes back, or on, to what to_bytes gave: bytes, or anything that holds them (bytearray, memoryview, an array).
         Raises SceneError where it is damaged."""
         self._sim.load_bytes(memoryview(saved).tobytes())
@@ -235,7 +259,7 @@ class Simulation:
         return _notebook.table(rows) + _notebook.image("png", self.picture())
 
 
-def resume(path, threads: Optional[int] = None, engine: str = "parallel") -> Simulation:
+def resume(path: _arguments.AnyPath, threads: Optional[int] = None, engine: str = "parallel") -> Simulation:
     """The simulation of a checkpoint, or of the folder of a run that has one. Raises SceneError where it is none."""
     simulation = Simulation.__new__(Simulation)
     with _in_words_of_python():

@@ -2,6 +2,7 @@
 
 import copy
 import html
+import inspect
 import os
 import pickle
 import typing
@@ -349,6 +350,22 @@ def test_everything_has_a_docstring():
             assert all(getattr(value, "__doc__", None) for value in public.values()), name
     for error in (carom.SceneError("a"), carom.PhysicsError("b"), carom.RunError("c")):
         assert type(pickle.loads(pickle.dumps(error))) is type(error)
+
+
+def test_every_call_has_types():
+    calls = {name: getattr(carom, name) for name in carom.__all__}
+    for name, thing in list(calls.items()):
+        if isinstance(thing, type):
+            del calls[name]
+            calls |= {f"{name}.{key}": value for key, value in vars(thing).items() if not key.startswith("_")}
+    for name, call in calls.items():
+        call = call.fget if isinstance(call, property) else getattr(call, "__func__", call)
+        if not inspect.isfunction(call):
+            continue
+        signature = inspect.signature(call)
+        typed = [p.annotation for p in signature.parameters.values() if p.name not in ("self", "cls")]
+        assert inspect.Signature.empty not in [*typed, signature.return_annotation], name
+        typing.get_type_hints(call)  # whose names are all known
 
 
 def test_every_column_has_a_type():
