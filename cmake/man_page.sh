@@ -29,9 +29,12 @@ for command in $(commands); do
 done
 cat <<'EOP'
 .SH EXIT STATUS
-0: done; 1: failed while running; 2: bad usage or a bad scene, with the file, the line, the key and what was expected;
-3: a check of the physics failed; 4: stopped early, with a checkpoint.
+0: done; 1: failed while running, or, of compare, different; 2: bad usage or a bad scene, with the file, the line, the key
+and what was expected; 3: a check of the physics failed; 4: stopped early, with a checkpoint unless the initial state was
+still being made.
 .SH ENVIRONMENT
 .B CAROM_KERNELS=baseline
 takes the instructions that every processor has; the bits are the same.
+.B USER
+is the author that trajectory.h5 names.
 EOP
