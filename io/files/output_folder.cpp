@@ -51,6 +51,20 @@ bool is_checkpoint(std::string_view name) {
   return name == checkpoint_name || name == previous_checkpoint_name;
 }
 
+// What carom view and carom render make of a run in its folder as well, also while it goes on.
+bool is_picture(std::string_view name) {
+  return name == "movie.mp4" || name == "frames" || name == "view.html";
+}
+
+// An empty folder in the unfinished one: pictures beside that are of an earlier run, which this one replaces.
+constexpr const char* old_pictures_name = "replaces-pictures";
+
+bool holds_pictures(const fs::path& folder) {
+  std::error_code error;
+  const auto is_there = [&](std::string_view name) { return is_picture(name) && fs::exists(folder / name, error); };
+  return std::any_of(result_names.begin(), result_names.end(), is_there);
+}
+
 // A name that no other program is likely to use, because --force removes the folder.
 fs::path unfinished_of(const fs::path& folder) {
   return folder / unfinished_name;
@@ -272,6 +286,7 @@ OutputFolder::OutputFolder(const fs::path& folder, const fs::path& input, bool f
   std::reverse(made_.begin(), made_.end());
   fs::remove_all(unfinished_, error);
   fs::create_directories(unfinished_, error);
+  if (!error && holds_pictures(folder_)) fs::create_directory(unfinished_ / old_pictures_name, error);
   if (!error) {
     lock();
     return;
@@ -327,8 +342,10 @@ void OutputFolder::remove_unfinished() noexcept {
 
 void OutputFolder::finish(bool keep_checkpoints) {
   std::error_code error;
+  const bool pictures_are_old = fs::exists(unfinished_ / old_pictures_name, error);
   // The old summary goes first: from here on the folder does not look complete until it is.
   for (auto name = result_names.rbegin(); name != result_names.rend(); ++name) {
+    if (is_picture(*name) && !pictures_are_old && !fs::exists(unfinished_ / *name, error)) continue;
     if (std::string_view(*name) == "frames") {
       fs::remove_all(folder_ / *name, error);
     } else {

@@ -41,7 +41,8 @@ class OutputFolder {
   // Moves what finish() moved up, or began to, down again: of a run that finished, all its results; else these files.
   void take_back(bool finished, const std::vector<std::string>& files);
 
-  // Moves everything up, replacing what an earlier run left; checkpoints only if they are to be kept. Throws RunError.
+  // Moves everything up, replacing what an earlier run left; checkpoints only if they are to be kept. A movie, frames
+  // or a page that carom view or carom render have made of this run stay, unless it has its own. Throws RunError.
   void finish(bool keep_checkpoints = false);
 
   // Leaves the files as they are, for inspection of a run that failed. Returns its path.

@@ -255,6 +255,37 @@ TEST_F(OutputFolderTest, WhatARunGoesOnWithIsTakenBack) {
   EXPECT_TRUE(fs::exists(folder / unfinished_name / "energy.svg")) << "of a run that goes on nothing is removed";
 }
 
+// carom view and carom render put theirs into the folder of a run that goes on or has stopped.
+TEST_F(OutputFolderTest, PicturesThatOthersMadeOfTheRunStay) {
+  const fs::path folder = base_ / "out";
+  const auto make_pictures = [&](const std::string& of) {
+    write_file(folder / "view.html", of);
+    write_file(folder / "movie.mp4", of);
+    fs::create_directories(folder / "frames");
+    write_file(folder / "frames" / "frame_000001.png", of);
+  };
+  OutputFolder(folder, base_ / "input.toml", false).keep_unfinished();
+  make_pictures("a part");
+  {
+    OutputFolder going_on{folder};
+    write_file(going_on.path("movie.mp4"), "all of it");
+    write_file(going_on.path("summary.json"), "1");
+    going_on.finish();
+  }
+  EXPECT_EQ(text(folder / "view.html"), "a part");
+  EXPECT_EQ(text(folder / "frames" / "frame_000001.png"), "a part");
+  EXPECT_EQ(text(folder / "movie.mp4"), "all of it") << "the run's own";
+  // Those of an earlier run go with it, also where the one that replaces it stops on the way.
+  OutputFolder(folder, base_ / "input.toml", true).keep_unfinished();
+  EXPECT_EQ(text(folder / "view.html"), "a part");
+  {
+    OutputFolder going_on{folder};
+    write_file(going_on.path("summary.json"), "2");
+    going_on.finish();
+  }
+  for (const char* const name : {"view.html", "movie.mp4", "frames"}) EXPECT_FALSE(fs::exists(folder / name)) << name;
+}
+
 TEST_F(OutputFolderTest, CheckpointsStayWhereTheyAreAskedFor) {
   for (const bool keep : {false, true}) {
     OutputFolder out(base_ / "out", base_ / "input.toml", true);

@@ -218,6 +218,15 @@ TEST_F(View, ARunThatGoesOnMakesThePageOfAllItsFrames) {
   EXPECT_EQ(text_of(at("same.html")), text_of(at("out/view.html")));
 }
 
+TEST_F(View, APageOfARunThatStoppedStaysWhenItHasGoneOn) {
+  ASSERT_EQ(carom("run gas.toml -o out --quiet --max-walltime 1e-9").status, 4);
+  ASSERT_EQ(carom("view out --quiet").status, 0);
+  const std::string page = text_of(at("out/view.html"));
+  ASSERT_EQ(carom("resume out --quiet --t-end 0.2").status, 0);
+  EXPECT_TRUE(fs::exists(at("out/summary.json")));
+  EXPECT_EQ(text_of(at("out/view.html")), page);
+}
+
 TEST_F(View, APageThatFailsCostsTheRunNothingElse) {
   const std::string small = "run gas.toml -o out --t-end 0.2 --set output.view=true --set disks.0.count=20";
   const Outcome lost = shell("ulimit -f 100; $C " + small + " --quiet");  // blocks of 512 bytes: less than any page has
