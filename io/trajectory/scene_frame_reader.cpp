@@ -11,6 +11,7 @@
 #include "core/base/input_message.hpp"
 #include "core/load/scene_file.hpp"
 #include "core/scene/drawn_velocities.hpp"
+#include "io/files/output_folder.hpp"
 #include "io/trajectory/trajectory_reader.hpp"
 
 namespace carom {
@@ -21,8 +22,13 @@ std::string trajectory_of(const std::string& path) {
   if (!std::filesystem::exists(path)) fail_input(path, "does not exist", "expected a folder of a run, or a trajectory");
   if (!std::filesystem::is_directory(path)) return path;
   const std::string found = trajectory_in(path).string();
-  if (found.empty()) fail_input(path, "holds no trajectory.xyz or trajectory.h5", "expected a run with a trajectory");
-  return found;
+  if (!found.empty()) return found;
+  const std::filesystem::path unfinished = trajectory_in(std::filesystem::path(path) / unfinished_name);
+  if (!unfinished.empty()) {  // whose last frame is another with each that comes
+    fail_input(path, "holds a run that is not finished",
+               fmt::format("expected a finished one, or the trajectory {}", unfinished.string()));
+  }
+  fail_input(path, "holds no trajectory.xyz or trajectory.h5", "expected a run with a trajectory");
 }
 
 // Of the run that wrote a frame: the scene.toml beside it, where that is there and is its own.

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <filesystem>
+
 #include "core/base/check.hpp"
 #include "tests/support/test_folder.hpp"
 
@@ -70,6 +72,20 @@ TEST_F(SceneFrames, OneThatIsNotThereIsNamed) {
   with_times({});
   EXPECT_EQ(complaint({file, {}, {}}), file + ": holds no frame");
   EXPECT_EQ(complaint({file, {}, 1.0}), file + ": holds no frame");
+}
+
+TEST_F(SceneFrames, OfARunThatIsNotFinishedItsTrajectoryIsToBeNamed) {
+  const std::string folder = folder_.path().string();
+  EXPECT_EQ(complaint({folder, {}, {}}),
+            folder + ": holds no trajectory.xyz or trajectory.h5; expected a run with a trajectory");
+  const std::string file = with_times({0.0, 1.0});
+  const std::filesystem::path inside = folder_.path() / "carom-unfinished";
+  std::filesystem::create_directories(inside);
+  std::filesystem::rename(file, inside / "trajectory.xyz");
+  const std::string moved = (inside / "trajectory.xyz").string();
+  EXPECT_EQ(complaint({folder, {}, {}}),
+            folder + ": holds a run that is not finished; expected a finished one, or the trajectory " + moved);
+  EXPECT_EQ(x_of({moved, {}, {}}), 2.0);
 }
 
 // A run with a shear has the flow in what it writes: by the scene beside it, if that is its own. Such a run counts no
