@@ -1,5 +1,7 @@
 #include "core/measure/follow_disks.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,12 +15,19 @@ constexpr double look_share = 0.125, longest_share = 0.25, check_share = 1.0 / 6
 // So few disks are asked every time.
 constexpr std::size_t few_disks = 4096;
 // Looks within one step beyond which a speed is no speed any more.
-constexpr double most_looks = 10'000.0;
+constexpr double most_looks = 100'000.0;
 
 // Of the axes along which rounds count: in a sheared box only y.
 double shortest_period(const Domain& box) {
   if (box.shear.acts()) return box.height;
   return std::min(box.periodic_x() ? box.width : HUGE_VAL, box.periodic_y() ? box.height : HUGE_VAL);
+}
+
+// May disks get speeds that have nothing to do with those that there are? Brownian motion, thermostats and thermal
+// sides draw them anew, sources bring in new ones, and what moves by itself hits disks.
+bool gives_speed(const Scene& scene) {
+  return scene.physics.diffusion > 0.0 || scene.physics.thermostat.acts() || !scene.sources.empty() ||
+         scene.box.has_thermal_side() || scene.box.has_moving_wall();
 }
 
 }  // namespace
@@ -29,21 +38,23 @@ bool follow_disks(DisplacementTally& tally, const Engine& engine, const Scene& s
   Disks between;
   const auto now = engine.pieces_at(engine.progress().time, between);
   const double g = scene.physics.gravity.size;
-  // No disk can come further in a time, if none is faster at both its ends.
+  // No disk can come further in a time, if none is faster at both its ends, nor on a path in between.
   const auto reach = [g](double speed, double time) { return (speed + g * time) * time; };
   double speed = tally.fastest;
-  // Brownian motion and thermostats draw speeds anew, and sources bring in new ones.
-  const bool ask = scene.physics.diffusion > 0.0 || scene.physics.thermostat.acts() || !scene.sources.empty() ||
-                   now->size() < few_disks || !(reach(speed, t - tally.checked_at) < check_share * period);
+  const double checked = tally.checked_at;
+  const bool ask =
+      gives_speed(scene) || now->size() < few_disks || !(reach(speed, t - tally.checked_at) < check_share * period);
   if (ask) {
-    tally.fastest = largest_speed(*now);
+    // Within a window of exact a hot wall may have set a disk going that a cold one has stopped since.
+    tally.fastest = std::max(largest_speed(*now), engine.fastest_within());
     tally.checked_at = t;
     speed = std::max(speed, tally.fastest);
   }
   const double span = t - tally.looked_at;
   const double travel = reach(speed, span);
   if (!(travel > look_share * period)) return false;
-  if (!(travel > longest_share * period)) return true;
+  // Until speeds were last asked for no disk had come so far that a look was due.
+  if (!(travel > longest_share * period) || !(reach(speed, t - checked) > look_share * period)) return true;
   const double looks = std::ceil(travel / (look_share * period));
   const double begin = tally.looked_at;
   for (double k = 1.0; k < looks; ++k) {
@@ -58,6 +69,15 @@ bool follow_disks(DisplacementTally& tally, const Engine& engine, const Scene& s
     look_at(tally, *there, scene.box);
   }
   return true;
+}
+
+std::string doubt_text(const DisplacementTally& tally, const Scene& scene, std::string_view what,
+                       std::string_view wrong, std::string_view every) {
+  const bool looks_within = scene.run.method == Method::exact && !(scene.physics.diffusion > 0.0);
+  return fmt::format(
+      "{}: at t = {:g} disks moved too far within a step to count how often they went round the periodic box; {} may "
+      "be wrong from there on; use a smaller {}",
+      what, tally.looked_at, wrong, looks_within ? every : "dt");
 }
 
 }  // namespace carom

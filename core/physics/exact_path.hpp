@@ -24,6 +24,10 @@ struct PathSegment {
   double vx = 0.0, vy = 0.0;  // at start; length / time
 };
 
+inline double speed_at_start(const PathSegment& p) {
+  return std::sqrt(p.vx * p.vx + p.vy * p.vy);
+}
+
 // The same path with its start moved to time s; no operation when it starts there.
 inline PathSegment carried_to(PathSegment p, double s, const Gravity& g) {
   if (s == p.start) return p;

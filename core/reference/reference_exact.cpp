@@ -76,6 +76,14 @@ class ReferenceExact final : public Engine {
     return at;
   }
 
+  double fastest_within() const override {
+    if (!has_paths_) return 0.0;
+    double fastest = 0.0;
+    for (const PathSegment& path : paths_.first) fastest = std::max(fastest, speed_at_start(path));
+    for (const WindowPaths::Piece& p : paths_.later) fastest = std::max(fastest, speed_at_start(p.path));
+    return fastest;
+  }
+
   std::vector<DiskContact> contacts() const override {
     std::vector<DiskContact> met;
     if (!has_paths_) return met;

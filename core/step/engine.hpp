@@ -51,6 +51,10 @@ class Engine {
     return std::make_unique<WholeDisks>(room, time);
   }
 
+  // The largest speed with which a disk set out on a path of the last step, however short: exact tells it of all paths
+  // that it keeps. 0 in time stepping, which knows the ends of steps only.
+  virtual double fastest_within() const { return 0.0; }
+
   // Says that no times within a step will be asked for: an exact engine then keeps no paths, and disks_at gives
   // state(). Changes no bit of the state.
   virtual void forget_paths() {}

@@ -280,16 +280,31 @@ void HaloWindows::move_along_paths(double s, Disks& disks) const {
   }
 }
 
+namespace {
+
+// Is a disk of the part no ghost?
+std::function<bool(std::uint32_t)> owned_by(const HaloPart& part) {
+  return [&part](std::uint32_t i) { return !part.run().window().record[i].progress.has(DiskProgress::ghost); };
+}
+
+}  // namespace
+
 std::vector<DiskContact> HaloWindows::contacts(double start) const {
   std::vector<DiskContact> all;
   for (const std::unique_ptr<HaloPart>& part : parts_) {
-    const auto is_own = [&](std::uint32_t i) {
-      return !part->run().window().record[i].progress.has(DiskProgress::ghost);
-    };
-    const std::vector<DiskContact> own = contacts_of_window(part->run().scheduler(), part->ids(), start, is_own);
+    const std::vector<DiskContact> own =
+        contacts_of_window(part->run().scheduler(), part->ids(), start, owned_by(*part));
     all.insert(all.end(), own.begin(), own.end());
   }
   return all;
+}
+
+double HaloWindows::fastest_within() const {
+  double fastest = 0.0;
+  for (const std::unique_ptr<HaloPart>& part : parts_) {
+    fastest = std::max(fastest, fastest_of_window(part->run().scheduler(), owned_by(*part)));
+  }
+  return fastest;
 }
 
 }  // namespace carom

@@ -63,9 +63,11 @@ class HaloWindows {
                   const std::function<void(std::size_t)>& visit) const;
   Known known() const { return known_; }
 
-  // Of the last window: makes positions and velocities those at time s of it; its collisions.
+  // Of the last window: makes positions and velocities those at time s of it; its collisions; as of an
+  // engine.
   void move_along_paths(double s, Disks& disks) const;
   std::vector<DiskContact> contacts(double start) const;
+  double fastest_within() const;
 
   // Of the last window.
   std::size_t parts() const { return parts_.size(); }

@@ -1,5 +1,6 @@
 #include "parallel/exact/logged_paths.hpp"
 
+#include <algorithm>
 #include <cstdint>
 
 #include "core/physics/exact_path.hpp"
@@ -56,6 +57,16 @@ std::vector<DiskContact> contacts_of_window(const SliceScheduler& scheduler, con
     }
   });
   return met;
+}
+
+double fastest_of_window(const SliceScheduler& scheduler, const std::function<bool(std::uint32_t)>& counts) {
+  double fastest = 0.0;
+  scheduler.read_logs([&](const std::vector<LoggedSegment>& log, const std::vector<double>& /*spins*/) {
+    for (const LoggedSegment& segment : log) {
+      if (counts(segment.disk)) fastest = std::max(fastest, speed_at_start(segment.path));
+    }
+  });
+  return fastest;
 }
 
 }  // namespace carom

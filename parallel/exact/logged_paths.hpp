@@ -1,4 +1,5 @@
-// What the workers' logs say of the last window: where disks were at a time within it, and which of them collided.
+// What the workers' logs say of the last window: where disks were at a time within it, and which of them collided,
+// and how fast they were.
 #pragma once
 
 #include <cstddef>
@@ -31,5 +32,8 @@ void move_along_paths(const WindowState& window, const SliceScheduler& scheduler
 // counts: is a collision of which this disk has the smaller id one of them?
 std::vector<DiskContact> contacts_of_window(const SliceScheduler& scheduler, const std::vector<DiskId>& id,
                                             double start, const std::function<bool(std::uint32_t)>& counts);
+
+// The largest speed with which a path of the window begins, of those disks that count and have met anything; else 0.
+double fastest_of_window(const SliceScheduler& scheduler, const std::function<bool(std::uint32_t)>& counts);
 
 }  // namespace carom

@@ -94,6 +94,12 @@ class LeadingEngine final : public Engine {
     return std::make_unique<Shown>(*this, t, room);
   }
 
+  double fastest_within() const override {
+    double fastest = 0.0;
+    if (knows_paths_) together(RankCall::fastest, [&] { fastest = part_.fastest_within(); });
+    return fastest;
+  }
+
   void forget_paths() override {
     knows_paths_ = false;
     together(RankCall::forget, [&] { part_.engine().forget_paths(); });

@@ -55,6 +55,7 @@ class LoneEngine final : public Engine {
   }
   const State& state() const override { return lone_.state(state_); }
   double disks_at(double t, Disks& out) const override { return lone_.disks_at(t, state_, out); }
+  double fastest_within() const override { return lone_.fastest_within(); }
   std::vector<DiskContact> contacts() const override { return lone_.contacts(); }
   void forget_paths() override { lone_.forget_paths(); }
   void release_memory() override { lone_.release_memory(); }

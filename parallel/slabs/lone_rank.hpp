@@ -36,6 +36,7 @@ class LoneRank {
   // Of rank 0, with all disks; the others give back `here`, which has none.
   const State& state(const State& here) const { return engine_ ? engine_->state() : here; }
   double disks_at(double t, const State& here, Disks& out) const;
+  double fastest_within() const { return engine_ ? engine_->fastest_within() : 0.0; }
   std::vector<DiskContact> contacts() const;
   const PhaseTimes& phase_times() const;
   std::vector<std::string> take_warnings();

@@ -89,6 +89,12 @@ void RankPart::gather_at(double& t, State* all) const {
   gather_disks(ranks_, then, all);
 }
 
+double RankPart::fastest_within() const {
+  double fastest = engine_->fastest_within();
+  ranks_.maximum({&fastest, 1});
+  return fastest;
+}
+
 void RankPart::step(const Traffic& before) {
   ++steps_;
   lists_.reset();
@@ -150,6 +156,8 @@ void follow(RankCall call, Ranks& ranks, RankPart& part, const Traffic& before) 
       double t = 0.0;
       return part.gather_at(t, nullptr);
     }
+    case RankCall::fastest:
+      return static_cast<void>(part.fastest_within());
     case RankCall::contacts: {
       Bytes own;
       put_all(own, part.engine().contacts());

@@ -35,6 +35,7 @@ enum class RankCall : std::int64_t {
   orders,    // visit_orders
   bonds,     // bond_pairs
   look,      // Engine::disks_at
+  fastest,   // fastest_within
   contacts,  // contacts
   sums,      // RankLead::sums
   overlaps,  // overlaps
@@ -67,6 +68,9 @@ class RankPart {
   void gather(State* all) const;
   // The same at the time that rank 0 gives, which becomes that of the disks.
   void gather_at(double& t, State* all) const;
+
+  // Of the disks of all ranks.
+  double fastest_within() const;
 
   // The lists of the state as it is now; until the next step.
   void share_lists() { lists_ = std::make_unique<SharedLists>(ranks_, engine_->state()); }

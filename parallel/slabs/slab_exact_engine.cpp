@@ -238,14 +238,25 @@ double SlabExact::disks_at(double t, Disks& out) const {
   return at;
 }
 
+// Is a disk of the last window this rank's own?
+std::function<bool(std::uint32_t)> SlabExact::owned() const {
+  const bool any_left = !at_start_.ghosts.empty();
+  return [this, any_left](std::uint32_t i) { return any_left ? at_start_.ghosts[i] == 0 : !ghosts_.is_ghost(i); };
+}
+
+double SlabExact::fastest_within() const {
+  if (lone_.runs()) return lone_.fastest_within();
+  if (!windows_.window().keeps_paths || !logged_) return 0.0;
+  return fastest_of_window(windows_.scheduler(), owned());
+}
+
 // Those across a border are on the rank of the disk with the smaller id.
 std::vector<DiskContact> SlabExact::contacts() const {
   if (lone_.runs()) return lone_.contacts();
   if (!windows_.window().keeps_paths || !logged_) return {};
   const bool any_left = !at_start_.ghosts.empty();
-  const auto counts = [&](std::uint32_t i) { return any_left ? at_start_.ghosts[i] == 0 : !ghosts_.is_ghost(i); };
   return contacts_of_window(windows_.scheduler(), any_left ? at_start_.disks.id : state_.disks.id, logged_->start,
-                            counts);
+                            owned());
 }
 
 std::vector<std::string> SlabExact::take_warnings() {

@@ -1,6 +1,8 @@
 // One rank's part of `exact` on slabs: its windows, and which disks it has.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -37,6 +39,7 @@ class SlabExact final : public Engine, public InSlabs {
   const State& state() const override;
   const State& progress() const override { return state_; }
   double disks_at(double t, Disks& out) const override;
+  double fastest_within() const override;
   std::vector<DiskContact> contacts() const override;
   void forget_paths() override {
     windows_.window().keeps_paths = false;
@@ -52,6 +55,7 @@ class SlabExact final : public Engine, public InSlabs {
   Count ghosts() const override { return lone_.runs() ? 0 : seen_ghosts_; }
 
  private:
+  std::function<bool(std::uint32_t)> owned() const;
   void start_window();
   void emit();
   bool remove_gone();

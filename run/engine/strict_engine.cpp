@@ -22,6 +22,7 @@ class StrictEngine final : public Engine {
   std::unique_ptr<StatePieces> pieces() const override { return engine_->pieces(); }
   double disks_at(double t, Disks& out) const override { return engine_->disks_at(t, out); }
   std::unique_ptr<DisksInPieces> pieces_at(double t, Disks& room) const override { return engine_->pieces_at(t, room); }
+  double fastest_within() const override { return engine_->fastest_within(); }
   void forget_paths() override { engine_->forget_paths(); }
   void release_memory() override { engine_->release_memory(); }
   void set_watch(const std::function<bool()>& go_on) override { engine_->set_watch(go_on); }

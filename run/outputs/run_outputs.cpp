@@ -259,10 +259,7 @@ std::vector<std::string> RunOutputs::take_warnings() {
   const std::string doubt = analysis_ ? analysis_->take_warning() : "";
   if (!doubt.empty()) warnings.push_back(doubt);
   if (rounds_.doubtful > 0 && !std::exchange(doubt_told_, true)) {
-    warnings.push_back(
-        fmt::format("trajectory: at t = {:g} disks moved too far within a step to count how often they went round the "
-                    "periodic box; its counts of rounds may be wrong from there on; use a smaller dt",
-                    rounds_.looked_at));
+    warnings.push_back(doubt_text(rounds_, scene_, "trajectory", "its counts of rounds", "output.every"));
   }
   return warnings;
 }

@@ -94,10 +94,7 @@ std::string RunningAnalysis::take_warning() {
   }
   if (warned_ || record_.displacement.doubtful == 0) return "";
   warned_ = true;
-  return fmt::format(
-      "displacement: at t = {:g} disks moved too far within a step to count how often they went round the periodic "
-      "box; the mean square displacement may be wrong from there on; use a smaller dt",
-      record_.displacement.looked_at);
+  return doubt_text(record_.displacement, scene_, "displacement", "the mean square displacement", "analysis.every");
 }
 
 }  // namespace carom

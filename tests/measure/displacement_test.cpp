@@ -246,16 +246,19 @@ class FleetSetGoing : public Engine {
   PhaseTimes times_;
 };
 
-// Nothing that many disks do from their speeds on says that they will move where others are emitted, or speeds drawn:
-// they are asked every time.
+// Nothing that many disks do from their speeds on says that they will move where others are emitted, or speeds drawn,
+// or where they are hit by what moves by itself: they are asked every time.
 TEST(Displacement, ManyDisksAreAskedWhereSpeedsComeFromElsewhere) {
   constexpr std::size_t disks = 4200;
-  for (const char* why : {"source", "diffusion", "thermostat"}) {
+  for (const char* why : {"source", "diffusion", "thermostat", "hot side", "moving side", "inner wall"}) {
     Scene scene = periodic_scene(Method::pairwise, 1.0, 40.0);
     scene.box.width = disks;
     scene.box.height = 16.0;
     if (why[0] == 's') scene.sources.emplace_back();
     if (why[0] == 'd') scene.physics.diffusion = 1.0;
+    if (why[0] == 'h') scene.box.temperatures[0] = 1.0;
+    if (why[0] == 'm') scene.box.motions[0] = {SideMotion::Kind::steady, 0.0, 1.0};
+    scene.box.inner_walls_move = why[0] == 'i';
     if (why[0] == 't') scene.physics.thermostat = {Thermostat::Kind::langevin, 1.0, 1.0, 1.0};
     FleetSetGoing engine(disks);
     const Followed f = follow(engine, scene);
