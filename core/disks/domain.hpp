@@ -94,6 +94,14 @@ inline Domain box_at(Domain box, double t) {
   return box;
 }
 
+// The box with its moving sides at the mean of their places from one time to a later one.
+inline Domain box_in_mean(Domain box, double from, double to) {
+  for (std::size_t s = 0; s < box.motions.size(); ++s) {
+    if (box.motions[s].moves()) box.places[s] = {box.motions[s].mean_inset(from, to), 0.0, 0.0};
+  }
+  return box;
+}
+
 // One component of the difference between two positions, taken to the nearest image.
 // Precondition: |d| < 1.5 period (both positions wrapped, or out by less than a quarter period).
 // Antisymmetric in d, so the order of the two disks does not change the bits of a distance.

@@ -69,6 +69,17 @@ struct SideMotion {
     return {inset + curvature * (since * (half() - since)), curvature * (half() - 2.0 * since), -2.0 * curvature};
   }
 
+  // The mean of its inset from one time to a later one, 0 <= from <= to.
+  double mean_inset(double from, double to) const {
+    const double middle = 0.5 * (from + to);
+    if (!vibrates() || !(from < to)) return at(middle).inset;
+    if (kind == Kind::parabolas) return inset + (way_of_parabolas(to) - way_of_parabolas(from)) / (to - from);
+    // The integral of sin(w t) over 2 d about the middle is 2 sin(w middle) sin(w d) / w, d half the time.
+    const double half_angle = 0.5 * angular_frequency() * (to - from);
+    const double waves = sine_in_period(middle, period).sine * sine_in_period(to - from, 2.0 * period).sine;
+    return inset + amplitude * waves / half_angle;
+  }
+
   // Where a sine that is at `from` has come to after time t >= 0.
   SidePlace swung(const SidePlace& from, double t) const {
     return swung(sine_in_period(t, period), from.inset - inset, from.speed);
@@ -102,6 +113,15 @@ struct SideMotion {
   }
 
  private:
+  // The integral from 0 to t of how far parabolas take it from its middle; length time. Two halves of a period cancel.
+  double way_of_parabolas(double t) const {
+    const double k = piece(t);
+    const double since = t - k * half();
+    const bool turned = k - 2.0 * std::floor(0.5 * k) != 0.0;
+    const double of_piece = 4.0 * amplitude * (since * since) * (0.5 * half() - since / 3.0) / (half() * half());
+    return turned ? 2.0 / 3.0 * amplitude * half() - of_piece : of_piece;
+  }
+
   // A sine that was `away` from its middle, at speed `v`, after an angle.
   SidePlace swung(const SineCosine& angle, double away, double v) const {
     const double w = angular_frequency();

@@ -105,7 +105,8 @@ const JsonKey<Summary> summary_keys[] = {
      [](const Summary& s) -> Json { return json_number(s.wall_overlap); }},
     {"pressure", "energy / area",
      "mean over the run, from collisions and the kinetic energy halfway between start and end (in a shear flow that "
-     "relative to it at the end); null likewise, of motion in no time, and where these two differ by more than a "
+     "relative to it at the end), in the room between the mean places of sides that move; null likewise, of motion in "
+     "no time, and where these two differ by more than a "
      "quarter, or are 0 with collisions in between: the pressure of a gas that cools or heats up is in series.csv, "
      "over time (output.series)",
      [](const Summary& s) -> Json { return json_number(s.pressure); }},
@@ -238,7 +239,7 @@ double mean_pressure(const Summary& s, double relative, double elapsed) {
   } else if (change > most_change * larger || (larger == 0.0 && have_met)) {
     return nothing;
   }
-  return pressure(mean, s.counters.virial, elapsed, box_at(s.box, s.time - 0.5 * elapsed));
+  return pressure(mean, s.counters.virial, elapsed, box_in_mean(s.box, s.time - elapsed, s.time));
 }
 
 }  // namespace

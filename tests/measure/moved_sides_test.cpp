@@ -43,6 +43,24 @@ TEST(MovedSides, PressureIsThatOfTheRoomBetweenAllFour) {
   EXPECT_DOUBLE_EQ(pressure({32.0}, 64.0, 2.0, box), (32.0 + 16.0) / (16.0 * 4.0));
 }
 
+// Against the sum of a thousand places between the two times; Simpson's rule is no better where a piece ends.
+TEST(MovedSides, MeanPlaceIsThatOfTheMotion) {
+  const SideMotion steady{SideMotion::Kind::steady, 2.0, 0.3};
+  const SideMotion parabolas{SideMotion::Kind::parabolas, 2.0, 0.0, -0.7, 0.8};
+  const SideMotion sine{SideMotion::Kind::sine, 2.0, 0.0, 0.7, 0.8};
+  for (const SideMotion& motion : {steady, parabolas, sine}) {
+    for (const double from : {0.0, 0.3, 0.8, 5.5}) {
+      for (const double length : {1e-3, 0.1, 0.4, 0.5, 0.8, 3.1}) {
+        constexpr int places = 1000;
+        double sum = 0.0;
+        for (int k = 0; k < places; ++k) sum += motion.at(from + length * (k + 0.5) / places).inset;
+        EXPECT_NEAR(motion.mean_inset(from, from + length), sum / places, 2e-5 * length) << from << ", " << length;
+      }
+      EXPECT_EQ(motion.mean_inset(from, from), motion.at(from).inset);
+    }
+  }
+}
+
 TEST(MovedSides, CentresOfPairsKeepAwayFromWhereTheSidesAre) {
   const Scene scene = pressed_box();
   const DistanceBins bins{2.0, 10, 3.0};

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <string>
 
 #include "core/load/scene_file.hpp"
@@ -72,6 +73,21 @@ TEST(Summary, ThePressureIsThatOfTheRoomHalfwayWhereSidesMove) {
   const Summary s = summary_of(scene_with("bottom = { motion = { velocity = [0.0, 2.0] } }\n", "", "[1.0, 0.0]"));
   EXPECT_EQ(s.counters.wall_collisions, 0U);
   EXPECT_DOUBLE_EQ(s.pressure, 1.0 / (10.0 * 9.0));
+}
+
+// After two and a half periods, with the floor where it was and at its highest at half time: the room is not that of
+// half time, 10 (10 - 2 - 1), but that of its mean place, and of the half period that is left over that is 2 a / 3 of a
+// parabola and 2 a / pi of a sine.
+TEST(Summary, ThePressureIsThatOfTheMeanRoomWhereSidesVibrate) {
+  const auto pressure_on = [](const std::string& shape) {
+    const std::string floor =
+        "bottom = { place = 2.0, motion = { vibrate = [0.0, 1.0], period = 0.4, shape = \"" + shape;
+    const Summary s = summary_of(scene_with(floor + "\" } }\n", "", "[1.0, 0.0]"));
+    EXPECT_EQ(s.counters.wall_collisions, 0U);
+    return s.pressure;
+  };
+  EXPECT_DOUBLE_EQ(pressure_on("parabola"), 1.0 / (10.0 * (8.0 - 2.0 / 3.0 / 5.0)));
+  EXPECT_DOUBLE_EQ(pressure_on("sine"), 1.0 / (10.0 * (8.0 - 2.0 / std::numbers::pi / 5.0)));
 }
 
 // A scene tells velocities relative to the flow, which at height 7.5 has a speed of 1.25.
