@@ -64,7 +64,9 @@ class ParallelExact final : public ExactFlights {
 
   const State& state() const override { return state_; }
   double disks_at(double t, Disks& out) const override;
-  double fastest_within() const override;
+  double fastest_within() const override {
+    return in_parts_ ? halos_.fastest_within() : fastest_of_window(windows_.scheduler(), [](auto) { return true; });
+  }
   std::vector<DiskContact> contacts() const override;
   void set_watch(const std::function<bool()>& go_on) override { windows_.window().go_on = go_on; }
   void forget_paths() override { windows_.window().keeps_paths = false; }
@@ -349,12 +351,6 @@ double ParallelExact::disks_at(double t, Disks& out) const {
   out = windows_.scheduler().any_gone() ? at_start_ : state_.disks;
   move_along_paths(windows_.window(), windows_.scheduler(), s, windows_.window().rules.box, {}, out);
   return at;
-}
-
-double ParallelExact::fastest_within() const {
-  if (!windows_.window().keeps_paths || !logged_) return 0.0;
-  if (in_parts_) return halos_.fastest_within();
-  return fastest_of_window(windows_.scheduler(), [](std::uint32_t) { return true; });
 }
 
 std::vector<DiskContact> ParallelExact::contacts() const {

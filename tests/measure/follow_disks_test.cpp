@@ -12,6 +12,7 @@
 #include "core/scene/scene.hpp"
 #include "parallel/simulation.hpp"
 #include "tests/support/disks_by_hand.hpp"
+#include "tests/support/draws.hpp"
 #include "tests/support/reference_run.hpp"
 
 namespace carom {
@@ -90,6 +91,23 @@ TEST(FollowDisks, TheLargestSpeedWithinAWindowIsThatOfItsPaths) {
     at_ends = std::max(at_ends, end);
   }
   EXPECT_GT(most, at_ends);
+}
+
+// Also where threads have parts of the box, with disks of others beside them.
+TEST(LongFollowDisks, TheLargestSpeedWithinAWindowIsThatOfAllParts) {
+  Scene scene = test::scene_of(Method::exact, 120.0, 120.0, 0.0, 3.0);
+  test::set_sides(scene.box, SideKind::periodic, SideKind::periodic);
+  test::Draws draws(7);
+  const State start = test::state_of(scene, test::random_disks(draws, scene.box, 6000, {0.3, 0.5}));
+  const auto reference = make_reference_engine(scene, start);
+  const auto one = make_parallel_engine(scene, start, {1}), two = make_parallel_engine(scene, start, {2});
+  while (reference->state().time < scene.run.t_end) {
+    for (Engine* const engine : {reference.get(), one.get(), two.get()}) engine->step();
+    const double end = largest_speed(reference->state().disks);
+    const double within = std::max(end, reference->fastest_within());
+    EXPECT_EQ(std::max(end, one->fastest_within()), within);
+    EXPECT_EQ(std::max(end, two->fastest_within()), within);
+  }
 }
 
 // A disk that creeps along x for a hundred steps, until something hits it. Its engine knows no time within a step.
