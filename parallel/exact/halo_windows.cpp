@@ -34,6 +34,11 @@ constexpr double first_width = 8.0;
 constexpr std::size_t cut_small = 8;
 constexpr double width_of_cut_work = 4.0;
 
+// Is a disk of the part no ghost?
+std::function<bool(std::uint32_t)> owned_by(const HaloPart& part) {
+  return [&part](std::uint32_t i) { return !part.run().window().record[i].progress.has(DiskProgress::ghost); };
+}
+
 }  // namespace
 
 HaloWindows::HaloWindows(const Scene& scene, State& state, const Executor& executor, PhaseTimes& times)
@@ -279,15 +284,6 @@ void HaloWindows::move_along_paths(double s, Disks& disks) const {
     part->give_paths(moved, disks);
   }
 }
-
-namespace {
-
-// Is a disk of the part no ghost?
-std::function<bool(std::uint32_t)> owned_by(const HaloPart& part) {
-  return [&part](std::uint32_t i) { return !part.run().window().record[i].progress.has(DiskProgress::ghost); };
-}
-
-}  // namespace
 
 std::vector<DiskContact> HaloWindows::contacts(double start) const {
   std::vector<DiskContact> all;
