@@ -76,6 +76,17 @@ TEST(DiskRaster, PixelsAreThoseOfTheFormula) {
   }
 }
 
+// A disk smaller than a pixel is seen in the corners of the area, too.
+TEST(DiskRaster, TheAreaIsFilledToItsEdges) {
+  for (const int column : {4, 11}) {
+    for (const int row : {4, 11}) {
+      std::array<std::uint32_t, 16 * 16> image{};
+      fill_disk({image.data(), 16, 4, 4, 12, 12}, column + 0.5, row + 0.5, 0.4, {255.0, 255.0, 255.0});
+      EXPECT_NE(image[static_cast<std::size_t>(16 * row + column)], 0U) << column << " " << row;
+    }
+  }
+}
+
 TEST(DiskRaster, NothingOutsideTheArea) {
   std::array<std::uint32_t, 16 * 16> image{};
   for (const double x : {-3.0, 4.0, 8.0, 11.9, 20.0}) {

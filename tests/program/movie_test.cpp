@@ -5,45 +5,25 @@
 #include <stdlib.h>
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <memory>
 
 #include "core/base/check.hpp"
 #include "io/movie/colour_map.hpp"
+#include "tests/support/picture.hpp"
 #include "tests/support/test_folder.hpp"
 
 namespace carom {
 namespace {
 
 namespace fs = std::filesystem;
+using test::one_disk;
+using test::packed;
+using test::pixel;
+using test::square_box;
 using ::testing::HasSubstr;
-
-Domain square_box(double side) {
-  Domain box;
-  box.width = box.height = side;
-  return box;
-}
-
-Disks one_disk(double x, double y, double vx, double radius) {
-  Disks d;
-  append(d, {x, y, vx, 0.0, radius, 1.0, 0});
-  return d;
-}
-
-std::uint32_t pixel(const FramePainter& painter, int column, int row) {
-  std::uint32_t value = 0;
-  std::memcpy(&value, painter.pixels() + 4 * (static_cast<std::ptrdiff_t>(row) * painter.width() + column), 4);
-  return value & 0xffffffU;
-}
-
-std::uint32_t packed(const Colour& c) {
-  return (static_cast<std::uint32_t>(std::lround(c.red)) << 16) |
-         (static_cast<std::uint32_t>(std::lround(c.green)) << 8) | static_cast<std::uint32_t>(std::lround(c.blue));
-}
 
 int count_of(const FramePainter& painter, std::uint32_t colour) {
   int count = 0;
