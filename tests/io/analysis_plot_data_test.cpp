@@ -4,6 +4,10 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "core/load/scene_file.hpp"
 #include "io/plots/analysis_plots.hpp"

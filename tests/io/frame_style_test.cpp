@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "core/scene/disk_group.hpp"
 #include "io/movie/frame.hpp"

@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 
 #include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 #include "io/movie/frame_legend.hpp"
 #include "tests/support/picture.hpp"
@@ -241,6 +244,13 @@ TEST(Frame, InnerWallsThatMoveAreWhereTheyAreThenAndSeenAcrossPeriodicSides) {
   EXPECT_EQ(colour_at(backwards, 0.5, 9.75), grey_wall);
   EXPECT_EQ(colour_at(backwards, 9.5, 9.75), grey_wall);
   EXPECT_EQ(colour_at(backwards, 5.0, 9.75), white);
+  style.obstacles = {segment({5.0, 6.0}, {5.0, 4.0})};
+  style.obstacles[0].moves = true;
+  FramePainter downwards(style);
+  downwards.paint({}, 4.75);
+  EXPECT_EQ(colour_at(downwards, 9.75, 0.5), grey_wall);
+  EXPECT_EQ(colour_at(downwards, 9.75, 9.5), grey_wall);
+  EXPECT_EQ(colour_at(downwards, 9.75, 5.0), white);
 }
 
 // The same as curves: what lies across a side is cut off, and a large disk is a rim with the rest upon it.

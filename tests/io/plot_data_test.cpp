@@ -1,7 +1,11 @@
 // What gnuplot is told to draw: each line's own numbers, on axes that hold them, with names where the lines end.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "io/plots/gnuplot.hpp"
 #include "io/plots/plot.hpp"

@@ -111,6 +111,17 @@ TEST_F(Plot, BandsDoNotDependOnStorageOrder) {
   EXPECT_NEAR(a.bands[0].vx[5], std::sin(0.45 * M_PI), 0.01);
 }
 
+// Of many disks every second or third is looked at, by its id; here none has such an id.
+TEST_F(Plot, BandsOfDisksWhoseIdsLieBetweenTheMultiples) {
+  VelocityRecord r;
+  Disks d;
+  for (DiskId k = 0; k < 30'000; ++k) append(d, {0.0, 0.0, 1e-4 * k, 1.0, 1.0, 1.0, 2 * k + 1});
+  record(r, d, 0.0);
+  ASSERT_EQ(r.bands.size(), 1U);
+  EXPECT_NEAR(r.bands[0].vx[3], 1.5, 1e-3);
+  EXPECT_EQ(r.bands[0].vy[3], 1.0);
+}
+
 TEST_F(Plot, ALineThatEndsEarlyIsMarked) {
   VelocityRecord r;
   record(r, disks_with_ids({0, 1}), 0.0);
@@ -139,6 +150,8 @@ TEST_F(Plot, TheEnergyOfSpinsIsALine) {
   EXPECT_TRUE(text_of(path).find("rotational") == std::string::npos);
   ASSERT_TRUE(plot_energy(path, "rough", {{0.0, 1.0}, {2.0, 1.5}, {1.0, 1.0}, {3.0, 3.0}}));
   EXPECT_TRUE(text_of(path).find(">rotational<") != std::string::npos);
+  ASSERT_TRUE(plot_energy(path, "hardly spinning", {{0.0, 1.0}, {2.0, 1.5}, {1.0, 1.0}, {3.0 + 1e-6, 2.5 + 1e-6}}));
+  EXPECT_TRUE(text_of(path).find(">rotational<") != std::string::npos) << "more than rounding";
 }
 
 // As a line it would not be seen: a run of one window has one sample of the pressure.

@@ -4,8 +4,12 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "io/view/view_axis.hpp"
 

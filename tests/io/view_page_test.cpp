@@ -6,6 +6,9 @@
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "core/load/scene_file.hpp"
 #include "io/view/base64.hpp"

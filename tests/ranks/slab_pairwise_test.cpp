@@ -200,6 +200,19 @@ TEST(SlabPairwiseRun, SplitsStepsAsOneMachineDoes) {
   }
 }
 
+// The lowest disk touches the sink at the start, and another one would hit it within the first step.
+TEST(SlabPairwiseRun, TakesWhatTouchesASinkBeforeTheFirstStep) {
+  const Scene scene = parse_scene(
+      "[box]\nwidth = 6.0\nheight = 24.0\nbottom = \"sink\"\n[[disks]]\ncount = 4\n"
+      "positions = [[3.0, 0.5], [3.0, 1.55], [3.0, 8.0], [3.0, 20.0]]\n"
+      "velocities = [[0.0, 0.0], [0.0, -1.0], [0.0, 0.5], [0.0, 0.0]]\nradius = 0.5\nmass = 1.0\n"
+      "[run]\nmethod = \"pairwise\"\ndt = 0.1\nt_end = 0.3\n",
+      "scene", "");
+  const Counters counters = expect_bits(scene, {1, 2, 3}).counters;
+  EXPECT_EQ(counters.removed, 1U);
+  EXPECT_EQ(counters.collisions, 0U);
+}
+
 TEST(SlabPairwiseRun, HasTheBitsOfASceneWithoutDisks) {
   expect_bits(slab_scene("wall", "width = 3.0\nheight = 3.0\n",
                          "count = 0\npositions = \"random\"\nradius = 0.5\nmass = 1.0\n", 0.1, 3),
