@@ -64,10 +64,10 @@ void EventProcessor<scope>::enter_all(double events_a_disk) {
   } else {
     calendar.insert_all(is_active);
   }
-  // Nothing has happened yet, so that disks that are due now may be predicted in any order; that keeps the calendar's
-  // first page short.
+  // Nothing has happened yet: all paths begin now, and disks that are due may be predicted in any order. That keeps the
+  // calendar's first page short.
   for (std::uint32_t i = first; i < last; ++i) {
-    if (entry[i].time <= 0.0 && is_active(i)) predict_next_event<false>(i, 0.0);
+    if (entry[i].time <= 0.0 && is_active(i)) predict_next_event<true>(i, 0.0);
   }
 }
 

@@ -173,6 +173,87 @@ TEST(GrazingSides, DisksThatRiseToTheCeiling) {
   EXPECT_GT(collisions, 1000U);
 }
 
+// The ceiling comes down as a sine. Disks rise as fast as it does when it comes nearest to them, all but to their
+// edges, to the last bits; from below, so that it has not met them before.
+State under_a_sine(test::Draws& draws, double side, const SideMotion& ceiling) {
+  constexpr double radius = 0.5, apart = 2.2 * radius;
+  std::vector<Disk> list;
+  for (double x = radius; x < side - 4.0 * radius; x += apart) {
+    // In the second quarter of a period, as it goes up again.
+    const double nearest_at = ceiling.period * (std::floor(draws.in(0.0, 6.0)) + draws.in(0.3, 0.45));
+    const SidePlace there = ceiling.at(nearest_at);
+    const double y = side - radius - there.inset + there.speed * nearest_at;
+    if (y > radius) list.push_back({x, y, 0.0, -there.speed, radius, 1.0});
+  }
+  return test::state_of(list);
+}
+
+TEST(GrazingSides, DisksUnderASineThatComesAsFarAsTheirEdges) {
+  Count contacts = 0;
+  for (std::uint32_t seed = 1; seed <= 12; ++seed) {
+    SCOPED_TRACE(seed);
+    test::Draws draws(seed);
+    const Pairs pairs = some_pairs(draws);
+    Scene scene = plain_scene(test::box_of(pairs.side(), pairs.side()), 1e9);
+    SideMotion& ceiling = scene.box.motions[static_cast<std::size_t>(Side::top)];
+    ceiling.kind = SideMotion::Kind::sine;
+    ceiling.amplitude = 0.4;
+    ceiling.inset = 0.5;
+    ceiling.furthest = 0.9;
+    ceiling.period = draws.in(2.0, 4.0);
+    Source source = cutting_source(pairs, 3.0);
+    source.region_low.y = source.region_high.y = 0.3;
+    scene.sources.push_back(source);
+    State start = under_a_sine(draws, pairs.side(), ceiling);
+    start.sources.resize(1);
+    contacts += expect_reference(scene, start, 80);
+  }
+  EXPECT_GT(contacts, 100U);
+}
+
+// A fixed disk in each second cell, and the end of an inner wall in the others; a disk comes along a line that passes
+// it at the contact distance.
+State passing_obstacles(test::Draws& draws, const Pairs& pairs, Scene& scene) {
+  constexpr double radius = 0.5;
+  std::vector<Disk> list;
+  std::vector<Obstacle> obstacles;
+  for (int k = 0; k < pairs.a_side * pairs.a_side; ++k) {
+    const Vec2 at = in_cell(draws, pairs, k);
+    const double angle = draws.in(0.0, 2.0 * std::numbers::pi);
+    const double c = std::cos(angle), s = std::sin(angle);
+    double beside = radius;
+    if (k % 2 == 0) {
+      const double fixed = draws.in(0.05, 0.6);
+      obstacles.push_back({at.x, at.y, 0.0, 0.0, fixed, 1.0, static_cast<DiskId>(1000 + k), ObstacleKind::disk});
+      beside += fixed;
+    } else {
+      obstacles.push_back({at.x, at.y, s, -c, 0.0, 1.0, static_cast<DiskId>(scene.walls.size()), ObstacleKind::wall});
+      scene.walls.push_back({.points = {at, {at.x + s, at.y - c}}});
+    }
+    const double way = draws.in(0.05, 0.5 * pairs.cell - 1.6);
+    const double speed = draws.in(0.5, 2.0);
+    list.push_back({at.x + way * c - beside * s, at.y + way * s + beside * c, -speed * c, -speed * s, radius, 1.0});
+  }
+  State state = test::state_of(list);
+  state.obstacles = obstacles;
+  return state;
+}
+
+TEST(GrazingObstacles, DisksThatPassAtTheirContactDistance) {
+  Count contacts = 0;
+  for (std::uint32_t seed = 1; seed <= 12; ++seed) {
+    SCOPED_TRACE(seed);
+    test::Draws draws(seed);
+    const Pairs pairs = some_pairs(draws);
+    Scene scene = plain_scene(test::box_of(pairs.side(), pairs.side(), seed % 2 == 0, seed % 2 == 0), 1e9);
+    scene.sources.push_back(cutting_source(pairs, seed % 3 == 0 ? 200.0 : 3.0));
+    State start = passing_obstacles(draws, pairs, scene);
+    start.sources.resize(1);
+    contacts += expect_reference(scene, start, seed % 3 == 0 ? 400 : 60);
+  }
+  EXPECT_GT(contacts, 100U);
+}
+
 // In these a disk near a border between regions falls in free flight through a whole window, and has to be relisted at
 // its very end: which its last slice waits for.
 TEST(GrazingSides, DisksThatAreRelistedAtTheEndOfAWindow) {
