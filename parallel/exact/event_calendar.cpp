@@ -15,6 +15,8 @@ constexpr std::size_t most_pages_a_disk = 8;
 constexpr std::size_t few_pages = 64;
 // Where there are many disks: the number of parts of the time that are divided into pages one after the other.
 constexpr std::size_t parts = 4;
+// Fewer pages than one for so many disks are no part of others, and nothing is announced: it would take longer.
+constexpr std::size_t disks_of_few_pages = 5;
 // Pages are shortened where the events of a page that has too many are spread over this share of it or more.
 constexpr double spread_share = 0.125;
 constexpr double events_a_page = 2.0;
@@ -22,8 +24,6 @@ constexpr double events_a_page = 2.0;
 }  // namespace
 
 void EventCalendar::begin(double start, double end, const CalendarEntries& entries, std::size_t expected, bool many) {
-  many_ = many;
-  pages_written_at_once_ = many ? pages_of_transit : all_pages;
   node_ = entries.entry;
   first_disk_ = entries.first;
   last_disk_ = entries.last;
@@ -34,7 +34,10 @@ void EventCalendar::begin(double start, double end, const CalendarEntries& entri
   const std::size_t wanted =
       expected == 0 ? 2 * disks : static_cast<std::size_t>(pages_per_event * static_cast<double>(expected));
   const std::size_t pages = std::clamp(wanted, few_pages, most);
-  pages_a_part_ = many ? pages / parts + 1 : pages;
+  const bool few = expected > 0 && pages < disks / disks_of_few_pages;
+  announces_ = many && !few;
+  pages_written_at_once_ = announces_ ? pages_of_transit : all_pages;
+  pages_a_part_ = !many ? most : few ? disks / disks_of_few_pages : pages / parts + 1;
   begin_part(start, end > start ? static_cast<double>(pages) / (end - start) : 0.0, pages);
 }
 
@@ -95,7 +98,7 @@ bool EventCalendar::shorten_pages() {
   const std::size_t most = most_pages_a_disk * (last_disk_ - first_disk_) + few_pages;
   const double pages = (end_ - page_start) * pages_per_time + 1.0;
   const std::size_t left = pages < static_cast<double>(most) ? static_cast<std::size_t>(pages) : most;
-  many_ ? begin_part(page_start, pages_per_time, left) : set_pages(page_start, pages_per_time, left);
+  begin_part(page_start, pages_per_time, left);
   enter_again();
   return true;
 }

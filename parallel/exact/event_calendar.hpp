@@ -44,7 +44,8 @@ class EventCalendar {
   static constexpr int stages = 3;
 
   // Empties the calendar, for events of these disks in [start, end]. expected: about how many; 0 if not known. many:
-  // there are so many disks that events that come soon are announced. The entries outlive the calendar's use.
+  // there are so many disks that events that come soon are announced, unless few are expected. The entries outlive the
+  // calendar's use.
   void begin(double start, double end, const CalendarEntries& disks, std::size_t expected, bool many);
 
   // Gives back the memory of the pages; begin() is next.
@@ -71,13 +72,15 @@ class EventCalendar {
   template <class ComesFirst>
   [[gnu::always_inline]] void move(std::uint32_t disk, double time, ComesFirst comes_first) {
     unlink(disk);
-    node_[disk].time = time;
-    const std::uint32_t page = page_of(time);
-    // One comparison in place of two: as a number without sign, a page before unsorted_from_ is larger than all others.
-    if (page - unsorted_from_ > pages_written_at_once_) {
-      page < unsorted_from_ ? link_in_order(disk, comes_first) : post(disk, page);
+    put(disk, time, comes_first);
+  }
+  // The same of a disk that is not in the calendar; with an event after the end it stays out.
+  template <class ComesFirst>
+  [[gnu::always_inline]] void enter(std::uint32_t disk, double time, ComesFirst comes_first) {
+    if (time > end_) {
+      node_[disk].time = time;
     } else {
-      link(disk, page);
+      put(disk, time, comes_first);
     }
   }
   // Takes the disk out; it keeps its time.
@@ -188,6 +191,17 @@ class EventCalendar {
     }
     node_[left.next].previous = left.previous;
   }
+  template <class ComesFirst>
+  [[gnu::always_inline]] void put(std::uint32_t disk, double time, ComesFirst comes_first) {
+    node_[disk].time = time;
+    const std::uint32_t page = page_of(time);
+    // One comparison in place of two: as a number without sign, a page before unsorted_from_ is larger than all others.
+    if (page - unsorted_from_ > pages_written_at_once_) {
+      page < unsorted_from_ ? link_in_order(disk, comes_first) : post(disk, page);
+    } else {
+      link(disk, page);
+    }
+  }
   // Puts an entry into transit, in the place of the one that has been there longest, which is written to its page.
   [[gnu::noinline]] void post(std::uint32_t disk, std::uint32_t page) {
     Transit& oldest = transit_[next_place_];
@@ -220,7 +234,7 @@ class EventCalendar {
   // Turns to the next page, or, where none is announced, to the next one that is not empty; false if there is none.
   template <class Soon>
   [[gnu::always_inline]] bool turn_page(Soon soon) {
-    if (many_) {
+    if (announces_) {
       if (page_ + 1 == pages_) [[unlikely]] {
         unsorted_from_ = page_;
         return begin_next_part();
@@ -236,7 +250,7 @@ class EventCalendar {
       ++page;
     } while (first_[page] == end_of_list_);
     unsorted_from_ = page_ = std::min(page, pages_ - 1);
-    return page < pages_;
+    return page < pages_ || begin_next_part();
   }
   // Announces disks on pages that come soon for the first time, and earlier ones for their next stages. soon has to be
   // inlined, as g++ 12 leaves out calls of functions that do nothing but prefetch.
@@ -300,7 +314,7 @@ class EventCalendar {
   std::uint32_t unsorted_from_ = 0;  // the present page, or the next one if the present one is sorted
   std::size_t pages_a_part_ = 1;
   std::size_t later_pages_ = 0;  // of the parts to come
-  bool many_ = false;
+  bool announces_ = false;
   // Entries for pages at most this far ahead are written at once; others go into transit first.
   static constexpr std::uint32_t all_pages = 0xfffffffeU;
   std::uint32_t pages_written_at_once_ = all_pages;

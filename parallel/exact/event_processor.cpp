@@ -50,24 +50,17 @@ void EventProcessor<scope>::enter_all(double events_a_disk) {
   const std::uint32_t first = worker_.region.first_disk;
   const auto disks = static_cast<double>(last - first);
   const double expected = std::min(events_a_disk, most_events_a_disk) * disks;
-  // Most events come after its end. It is over before looking ahead is of use.
-  const bool is_short = disks_per_event * expected < disks;
-  const bool is_known = events_a_disk > 0.0;
   calendar.begin(window_.slice_start, window_.length, window_.entries_of(first, last, worker_.number),
-                 is_known ? static_cast<std::size_t>(expected) + 1 : 0, window_.looks_ahead && !(is_known && is_short));
+                 events_a_disk > 0.0 ? static_cast<std::size_t>(expected) + 1 : 0, window_.looks_ahead);
   const auto is_active = [this](std::uint32_t i) { return !has_regions || record_[i].progress.is_active(); };
   const CalendarEntry* const entry = window_.entry.data();
-  if (is_short) {
-    // Disks without an event in the window stay out until they get another.
-    const double end = window_.length;
-    calendar.insert_all([=](std::uint32_t i) { return entry[i].time <= end && is_active(i); });
-  } else {
-    calendar.insert_all(is_active);
-  }
-  // Nothing has happened yet: all paths begin now, and disks that are due may be predicted in any order. That keeps the
-  // calendar's first page short.
+  // In a short window most events come after its end: those disks stay out until they get another event.
+  const double last_time = disks_per_event * expected < disks ? window_.length : never;
+  calendar.insert_all(
+      [=](std::uint32_t i) { return entry[i].time > 0.0 && entry[i].time <= last_time && is_active(i); });
+  // Disks that are due now are predicted in any order, as nothing has happened yet: all paths begin now.
   for (std::uint32_t i = first; i < last; ++i) {
-    if (entry[i].time <= 0.0 && is_active(i)) predict_next_event<true>(i, 0.0);
+    if (!(entry[i].time > 0.0) && is_active(i)) predict_next_event<true, true>(i, 0.0);
   }
 }
 
@@ -292,7 +285,7 @@ inline bool EventProcessor<scope>::stays_listed(std::uint32_t i, double from, do
 
 // Nearly always the kernel alone gives the first event, and the disk stays listed until then.
 template <Scope scope>
-template <bool newest>
+template <bool newest, bool enters>
 void EventProcessor<scope>::predict_next_event(std::uint32_t i, double from) {
   const ListRow& row = lists_.rows().row(i);
   if (!predictor_.kernel_tells(row)) [[unlikely]]
@@ -311,7 +304,13 @@ void EventProcessor<scope>::predict_next_event(std::uint32_t i, double from) {
   }
   const Partner partner = EventPredictor::partner_in(row, i, first);
   record_[i].partner_version = record_[partner.index()].version;
-  schedule(i, first.time, partner);
+  if constexpr (enters) {
+    record_[i].partner = partner;
+    const auto order = [this](std::uint32_t a, std::uint32_t b) { return comes_first(a, b); };
+    worker_.calendar.enter(i, first.time, order);
+  } else {
+    schedule(i, first.time, partner);
+  }
 }
 
 // As schedule_next, for a disk that nothing happens to up to the horizon while it stays listed.

@@ -93,8 +93,8 @@ class EventProcessor {
   void predict_after_event(std::uint32_t i, double time);
 
   [[gnu::hot]] ScheduledEvent next_event(std::uint32_t i, double from, const NextEvent& next);
-  // newest: as EventPredictor::first_in.
-  template <bool newest>
+  // newest: as EventPredictor::first_in. enters: the disk is not in the calendar.
+  template <bool newest, bool enters = false>
   [[gnu::hot]] void predict_next_event(std::uint32_t i, double from);
   [[gnu::noinline, gnu::hot]] void schedule_no_contact(std::uint32_t i, double from);
   [[gnu::noinline, gnu::hot]] void predict_from_all(std::uint32_t i, double from);
