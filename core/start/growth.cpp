@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
 #include "core/base/random.hpp"
 #include "core/disks/obstacle_cells.hpp"
@@ -72,6 +73,10 @@ double share_left(const Domain& box, const std::vector<Obstacle>& obstacles) {
   return std::max(0.1, 1.0 - std::numbers::pi * squares / (box.width * box.height));
 }
 
+bool group_grows(const DiskGroup& group) {
+  return group.positions.kind == PositionLaw::Kind::growth;
+}
+
 class Growth {
  public:
   Growth(const Scene& scene, const Disks& disks, const std::vector<Obstacle>& obstacles, const GrowthTools& tools)
@@ -134,7 +139,7 @@ class Growth {
         if (tally.lacking > 0 && lack > 0.0 && lack > stall_share * lack_then) fail("stalls", tally);
         lack_then = lack;
       }
-      const auto events = static_cast<double>(fly(length));
+      const auto events = static_cast<double>(fly(length, tally));
       const double wanted = length * (most_events_ / std::max(1.0, events));
       length = std::min(longest_flight_, std::clamp(wanted, 0.5 * length, 2.0 * length));
     }
@@ -169,28 +174,35 @@ class Growth {
     return std::numbers::pi * squares.value() / (scene_.box.width * scene_.box.height);
   }
 
-  // Returns how many events the flight had.
-  Count fly(double length) {
+  // Returns how many events the flight had. Where disks are caged so closely that its time stands still, growth jams.
+  Count fly(double length, const GrowthTally& tally) {
     state_.time = 0.0;
     state_.counters = {};
+    state_.stall = {};
     flight_.run.t_end = length;
-    state_ = tools_.fly(flight_, std::move(state_), [this] { tell(); });
+    try {
+      state_ = tools_.fly(flight_, std::move(state_), [this] { tell(); });
+    } catch (const PhysicsError&) {
+      fail("jams", tally);
+    }
     const Count events = state_.counters.collisions + state_.counters.wall_collisions;
     progress_.collisions += events;
     return events;
   }
 
   [[noreturn]] void fail(std::string_view how, const GrowthTally& tally) const {
+    const auto group = std::ranges::find_if(scene_.groups, group_grows) - scene_.groups.begin();
     const double each = 2.0 * static_cast<double>(progress_.collisions) / static_cast<double>(disks_);
     fail_input(
-        place_in_group(scene_, 0, "positions"),
+        place_in_group(scene_, static_cast<std::size_t>(group), "positions"),
         fmt::format("\"growth\" {} at packing fraction {:.4f} of {:.4f}: after {} steps and {:.0f} collisions a "
                     "disk, {} of {} disks lack some of their radius",
                     how, progress_.packing_fraction, progress_.final_packing_fraction, progress_.steps, each,
                     tally.lacking, disks_),
         fmt::format("expected fewer disks or a larger box, a wider range of radii, or slower growth, as in "
-                    "[growth] slowness = {:g}{}",
-                    10.0 * scene_.growth.slowness, progress_.steps == scene_.growth.steps ? ", or more steps" : ""));
+                    "[growth] slowness = {:g}{}{}",
+                    10.0 * scene_.growth.slowness, progress_.steps == scene_.growth.steps ? ", or more steps" : "",
+                    obstacles_ == nullptr ? "" : ", or no fixed disks and walls that enclose others"));
   }
 
   const Scene& scene_;
@@ -215,8 +227,7 @@ GrowthTools plain_growth() {
 }
 
 bool grows(const Scene& scene) {
-  return std::any_of(scene.groups.begin(), scene.groups.end(),
-                     [](const DiskGroup& g) { return g.positions.kind == PositionLaw::Kind::growth; });
+  return std::ranges::any_of(scene.groups, group_grows);
 }
 
 void place_by_growth(const Scene& scene, Disks& disks, const std::vector<Obstacle>& obstacles,

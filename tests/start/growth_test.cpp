@@ -7,8 +7,12 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <numeric>
+#include <string>
+#include <utility>
 
+#include "core/base/check.hpp"
 #include "core/disks/disks.hpp"
 #include "core/disks/domain.hpp"
 #include "core/disks/obstacle_cells.hpp"
@@ -319,6 +323,34 @@ TEST(Growth, JamsWithAClearMessage) {
   EXPECT_THAT(message, HasSubstr("slowness = 10"));
   EXPECT_EQ(message.find('\n'), std::string::npos);
   EXPECT_THAT(test::complaint(text + "[growth]\nsteps = 5\n"), HasSubstr("\"growth\" ends at packing fraction 0."));
+}
+
+// Each flight is a run of its own: crowded windows of one before do not count. One whose time stands still, as that of
+// disks that others enclose does, is a jam; the group that grows is blamed.
+TEST(Growth, JamsWhereTheTimeOfAFlightStandsStill) {
+  const std::string fixed = "[[disks]]\nfixed = true\ncount = 1\npositions = [[5, 5]]\nradius = 1\n";
+  const Scene scene = scene_from(text_of("width = 10\nheight = 10", fixed + group(60, "0.6")));
+  const GrowthTools plain = plain_growth();
+  int flights = 0;
+  GrowthTools tools = plain;
+  tools.fly = [&](const Scene& flight, State state, const std::function<void()>& watch) {
+    EXPECT_EQ(state.time, 0.0);
+    EXPECT_EQ(state.stall.frames, 0U);
+    EXPECT_EQ(state.stall.since, 0.0);
+    if (++flights == 3) throw PhysicsError("time all but stands still");
+    state = plain.fly(flight, std::move(state), watch);
+    state.stall = {100, 7.0};
+    return state;
+  };
+  try {
+    initial_state(scene, place_at_random, tools);
+    ADD_FAILURE() << "grown in " << flights << " flights";
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    EXPECT_THAT(message, HasSubstr("disks.1.positions: \"growth\" jams at packing fraction 0."));
+    EXPECT_THAT(message, HasSubstr("no fixed disks and walls that enclose others"));
+  }
+  EXPECT_EQ(flights, 3);
 }
 
 TEST(Growth, RefusesWhatItCannotDo) {
