@@ -73,8 +73,8 @@ std::string difference(const RankTrace& expected, const RankTrace& found) {
 
 }  // namespace
 
-Trial try_on_ranks(const std::string& text, const std::string& name, const std::string& folder) {
-  Trial trial;
+RankTrial try_on_ranks(const std::string& text, const std::string& name, const std::string& folder) {
+  RankTrial trial;
   Scene scene;
   State start;
   try {
@@ -90,15 +90,15 @@ Trial try_on_ranks(const std::string& text, const std::string& name, const std::
   }
   const auto engine = make_parallel_engine(scene, start, {1});
   const RankTrace expected = trace_of(*engine, scene.run.t_end, [](const Disks& all) { return state_hash(all); });
-  trial.account = "on slabs";
   for (const int count : {2, 3}) {
     const std::vector<RankTrace> traces = run_on_ranks(scene, start, count);
     for (std::size_t rank = 0; rank < traces.size(); ++rank) {
       const std::string what = difference(expected, traces[rank]);
       if (!what.empty()) trial.faults.push_back(fmt::format("rank {} of {}: {}", rank, count, what));
-      if (traces[rank].alone) trial.account = "one rank runs all";
+      (traces[rank].alone ? trial.alone : trial.on_slabs) += 1;
     }
   }
+  trial.account = fmt::format("{} slabs, {} ranks of runs that one of them runs", trial.on_slabs, trial.alone);
   return trial;
 }
 

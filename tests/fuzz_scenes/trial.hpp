@@ -2,6 +2,7 @@
 // and they make sense.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,10 @@ Trial try_scene(const std::string& text, const std::string& name, const std::str
 // runs be compared.
 Trial try_against_oracle(const std::string& text, const std::string& name);
 
-// On two and on three ranks, step by step: the bits, warnings and errors of one machine. The account says whether one
-// rank ran all of them.
-Trial try_on_ranks(const std::string& text, const std::string& name, const std::string& folder = "");
+// On two and on three ranks, step by step: the bits, warnings and errors of one machine.
+struct RankTrial : Trial {
+  std::size_t on_slabs = 0, alone = 0;  // ranks that had a slab, and those of runs that one rank ran alone
+};
+RankTrial try_on_ranks(const std::string& text, const std::string& name, const std::string& folder = "");
 
 }  // namespace carom::fuzz
