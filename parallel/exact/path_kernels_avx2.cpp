@@ -52,7 +52,7 @@ inline void begin_path(const BegunPaths& in, std::size_t i, const Doubles& motio
   store(motion, &record.path.x);
   record.radius = in.radius;
   record.id = in.id[i];
-  std::uint32_t partner;
+  std::uint32_t partner = 0;
   __builtin_memcpy(&partner, &record.partner, sizeof partner);
   partner = partner == relist && in.relists_stay ? relist : none;
   __builtin_memcpy(static_cast<void*>(&record.partner), &partner, sizeof partner);

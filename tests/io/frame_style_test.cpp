@@ -142,7 +142,7 @@ TEST(SpeedScale, BrownianStepsComeOnTopOfVelocitiesThatAreKept) {
 TEST(ColourScale, CoversWhatSourcesBring) {
   Scene scene = square_scene();
   scene.sources.push_back(source_of(0.5, 3.0));
-  SeenValues seen = foreseen_values(scene, {});
+  SeenValues seen = foreseen_values(scene, Disks{});
   EXPECT_TRUE(seen.any);
   EXPECT_EQ(seen.radius.low, 0.5);
   EXPECT_EQ(seen.radius.high, 0.5);
@@ -158,12 +158,12 @@ TEST(ColourScale, CoversWhatSourcesBring) {
   scene.sources = {source_of(0.5, 3.0)};
   scene.sources[0].radius = from_other(4.0 / std::numbers::pi);
   scene.sources[0].mass = between(1.0, 64.0);
-  seen = foreseen_values(scene, {});
+  seen = foreseen_values(scene, Disks{});
   EXPECT_DOUBLE_EQ(seen.radius.low, 0.5);
   EXPECT_DOUBLE_EQ(seen.radius.high, 4.0);
   scene.sources[0].radius = between(1.0, 3.0);
   scene.sources[0].mass = from_other(1.0 / std::numbers::pi);
-  seen = foreseen_values(scene, {});
+  seen = foreseen_values(scene, Disks{});
   EXPECT_DOUBLE_EQ(seen.mass.low, 1.0);
   EXPECT_DOUBLE_EQ(seen.mass.high, 9.0);
 }
