@@ -31,14 +31,6 @@ std::uint32_t colour_at(const FramePainter& painter, double x, double y) {
   return pixel(painter, 28 + static_cast<int>(80.0 * x), 878 - 1 - static_cast<int>(80.0 * y));
 }
 
-SideMotion steady(double inset, double speed) {
-  SideMotion motion;
-  motion.kind = SideMotion::Kind::steady;
-  motion.inset = inset;
-  motion.speed = speed;
-  return motion;
-}
-
 Domain periodic_box() {
   Domain box = square_box(10.0);
   box.sides.fill(SideKind::periodic);
@@ -166,7 +158,7 @@ TEST(Frame, SidesThatMoveAreWhereTheyAreThen) {
   Domain box = square_box(10.0);
   for (const Side side : all_sides) {
     const auto s = static_cast<std::size_t>(side);
-    box.motions[s] = steady(0.5 + 0.25 * static_cast<double>(s), 0.25);
+    box.motions[s] = {SideMotion::Kind::steady, 0.5 + 0.25 * static_cast<double>(s), 0.25};
   }
   FramePainter painter({"", box, 1.0, 1});
   for (const double time : {0.0, 1.0, 4.0}) {
@@ -214,7 +206,7 @@ TEST(Frame, InnerWallsThatMoveAreWhereTheyAreThenAndSeenAcrossPeriodicSides) {
   style.obstacles = {segment({4.0, 5.0}, {6.0, 5.0})};
   style.obstacles[0].moves = true;
   style.wall_motions.resize(1);
-  style.wall_motions[0].pace = steady(0.0, 1.0);
+  style.wall_motions[0].pace = SideMotion{SideMotion::Kind::steady, 0.0, 1.0};
   style.wall_motions[0].along = {2.25, 0.5};
   FramePainter painter(style);
   painter.paint({}, 0.0);
@@ -260,7 +252,7 @@ TEST(Frame, ASvgShowsTheSame) {
   const auto svg_of = [&](const Disks& disks, double time) {
     FrameStyle style{"", square_box(10.0), 1.0, 1};
     style.obstacles = {segment({2.0, 2.0}, {4.0, 6.0})};
-    style.box.motions[0] = steady(0.0, 0.5);
+    style.box.motions[0] = SideMotion{SideMotion::Kind::steady, 0.0, 0.5};
     style.look.colour = ColourBy::group;
     FramePainter(style).write_svg(path, disks, time, disks.empty() ? std::vector<DiskId>{} : std::vector<DiskId>{5});
     return test::text_of(path);

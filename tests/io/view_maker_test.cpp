@@ -12,30 +12,17 @@
 #include <vector>
 
 #include "io/view/view_axis.hpp"
+#include "tests/support/replayed_trajectory.hpp"
 
 namespace carom {
 namespace {
 
 using nlohmann::json;
 
-class Replayed : public TrajectoryReader {
- public:
-  explicit Replayed(const std::vector<TrajectoryFrame>& frames) : frames_(frames) {}
-  bool read(TrajectoryFrame& frame) override {
-    if (next_ == frames_.size()) return false;
-    frame = frames_[next_++];
-    return true;
-  }
-
- private:
-  const std::vector<TrajectoryFrame>& frames_;
-  std::size_t next_ = 0;
-};
-
 ViewMade made_of(const std::vector<TrajectoryFrame>& frames, const ViewStory& story, std::size_t most = 64'000'000) {
   ViewWork work;
   work.most_bytes = most;
-  return make_view([&] { return std::make_unique<Replayed>(frames); }, "test", story, work);
+  return make_view([&] { return std::make_unique<test::ReplayedTrajectory>(frames); }, "test", story, work);
 }
 
 json head_of(const ViewMade& made) {

@@ -55,21 +55,13 @@ json head_of(const ViewStory& story, const ViewEncoder& encoder) {
   return json::parse(element_of(view_page(story, encoder, {}), "application/json", "head"));
 }
 
-SideMotion steady(double inset, double speed) {
-  SideMotion motion;
-  motion.kind = SideMotion::Kind::steady;
-  motion.inset = inset;
-  motion.speed = speed;
-  return motion;
-}
-
 TEST(ViewPageHead, HasTheBoxItsSidesAndTheirMotion) {
   ViewStory story;
   story.box = Domain{20.0, 8.0};
   story.box.sides = {SideKind::periodic, SideKind::periodic, SideKind::wall, SideKind::sink};
   story.box.temperatures[2] = 0.5;
   story.box.shear = {0.25, 2.0, 1.0};
-  story.box.motions[3] = steady(0.5, 2.0);
+  story.box.motions[3] = SideMotion{SideMotion::Kind::steady, 0.5, 2.0};
   const json head = head_of(story, encoded(three_disks()));
   EXPECT_EQ(head["box"],
             json::parse(R"({"width":20.0,"height":8.0,"shear":0.25,)"
@@ -93,7 +85,7 @@ TEST(ViewPageHead, HasWhatStandsInTheBox) {
   sink.x = 5.0, sink.y = 6.0, sink.dx = -1.0, sink.kind = ObstacleKind::sink, sink.id = 1;
   story.obstacles = {wall, disk, sink};
   story.wall_motions.resize(2);
-  story.wall_motions[1].pace = steady(0.0, 1.0);
+  story.wall_motions[1].pace = SideMotion{SideMotion::Kind::steady, 0.0, 1.0};
   story.wall_motions[1].along = {2.0, -1.0};
   story.sources = {{Side::top, {}, {}}, {{}, {1.0, 2.0}, {3.0, 5.0}}};
   story.groups = {"sand", ""};
@@ -200,7 +192,7 @@ TEST(ViewPageBlocks, AreListedAsTheyAre) {
 TEST(ViewNews, TellWhatAPageDoesNotHave) {
   ViewStory story;
   story.box = Domain{20.0, 8.0};
-  story.box.motions[0] = steady(0.0, 2.0);
+  story.box.motions[0] = SideMotion{SideMotion::Kind::steady, 0.0, 2.0};
   const ViewEncoder encoder = encoded(three_disks());
   json news = json::parse(view_news(story, encoder, 0, 2, "it \"runs\"", false));
   EXPECT_EQ(news["state"], "it \"runs\"");

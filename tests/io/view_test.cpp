@@ -13,6 +13,7 @@
 #include "io/view/view_encoder.hpp"
 #include "io/view/view_maker.hpp"
 #include "io/view/view_page.hpp"
+#include "tests/support/replayed_trajectory.hpp"
 
 namespace carom {
 namespace {
@@ -275,27 +276,12 @@ TEST(ViewSeries, ColumnsOfNumbersAndNoMoreRowsThanAskedFor) {
   EXPECT_EQ(read_view_series(even, 90, "s").columns[0].size(), 90U) << "all that were asked for";
 }
 
-// A trajectory in memory.
-class Replayed : public TrajectoryReader {
- public:
-  explicit Replayed(const std::vector<TrajectoryFrame>& frames) : frames_(frames) {}
-  bool read(TrajectoryFrame& frame) override {
-    if (next_ == frames_.size()) return false;
-    frame = frames_[next_++];
-    return true;
-  }
-
- private:
-  const std::vector<TrajectoryFrame>& frames_;
-  std::size_t next_ = 0;
-};
-
 TEST(ViewMaker, ThePageIsNoLongerThanAskedForAndSaysWhatItLacks) {
   const auto frames = random_frames(11, 1000, 60, true);
   const auto made_of = [&](std::size_t most) {
     ViewWork work;
     work.most_bytes = most;
-    return make_view([&] { return std::make_unique<Replayed>(frames); }, "test", {}, work);
+    return make_view([&] { return std::make_unique<test::ReplayedTrajectory>(frames); }, "test", {}, work);
   };
   const ViewMade all = made_of(64'000'000);
   EXPECT_EQ(all.frames, 1000U);
@@ -324,7 +310,7 @@ TEST(ViewMaker, ThePageIsNoLongerThanAskedForAndSaysWhatItLacks) {
 // A group has one colour in the movie of a run and in its page.
 TEST(ViewMaker, GroupsHaveTheColoursOfMovies) {
   const auto frames = random_frames(12, 2, 4, false);
-  const ViewMade made = make_view([&] { return std::make_unique<Replayed>(frames); }, "test", {}, {});
+  const ViewMade made = make_view([&] { return std::make_unique<test::ReplayedTrajectory>(frames); }, "test", {}, {});
   std::string colours;
   for (DiskId group = 0; group < 8; ++group) {
     const Colour c = group_colour(group);

@@ -13,6 +13,7 @@
 #include "tests/support/disks_by_hand.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/reference_run.hpp"
+#include "tests/support/scripted_engine.hpp"
 
 namespace carom {
 namespace {
@@ -152,7 +153,7 @@ TEST(Displacement, RoundsAreThoseSinceTheFirstLook) {
 
 // One disk that flies along x, with a window from 0 to 1 at speed 1 and one from 1 to 1.2 at speed 12.5: a floor that
 // moves has kicked it.
-class KickedDisk : public Engine {
+class KickedDisk : public test::ScriptedEngine {
  public:
   KickedDisk() { state_.disks = test::disks_of({{0.5, 2.0, 1.0, 0.0}}); }
   void step() override {
@@ -221,7 +222,7 @@ TEST(Displacement, ManyDisksAtRestAreFollowedWhenTheyAreSetGoing) {
 }
 
 // Many disks at rest, which all go up at speed 1 after the first step.
-class FleetSetGoing : public Engine {
+class FleetSetGoing : public test::ScriptedEngine {
  public:
   explicit FleetSetGoing(std::size_t disks) {
     for (DiskId id = 0; id < disks; ++id) append(state_.disks, {id + 0.5, 8.0, 0.0, 0.0, 0.1, 1.0, id});
@@ -232,18 +233,6 @@ class FleetSetGoing : public Engine {
     state_.disks.vy.assign(state_.disks.size(), 1.0);
     for (double& y : state_.disks.y) y = wrap(y + 1.0, 16.0);
   }
-  const State& state() const override { return state_; }
-  double disks_at(double /*t*/, Disks& out) const override {
-    out = state_.disks;
-    return state_.time;
-  }
-  std::vector<DiskContact> contacts() const override { return {}; }
-  const PhaseTimes& phase_times() const override { return times_; }
-  std::vector<std::string> take_warnings() override { return {}; }
-
- private:
-  State state_;
-  PhaseTimes times_;
 };
 
 // Nothing that many disks do from their speeds on says that they will move where others are emitted, or speeds drawn,

@@ -14,6 +14,7 @@
 #include "tests/support/disks_by_hand.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/reference_run.hpp"
+#include "tests/support/scripted_engine.hpp"
 
 namespace carom {
 namespace {
@@ -111,7 +112,7 @@ TEST(LongFollowDisks, TheLargestSpeedWithinAWindowIsThatOfAllParts) {
 }
 
 // A disk that creeps along x for a hundred steps, until something hits it. Its engine knows no time within a step.
-class CreepingDisk : public Engine {
+class CreepingDisk : public test::ScriptedEngine {
  public:
   CreepingDisk() { state_.disks = test::disks_of({{0.5, 2.0, 0.01, 0.0}}); }
   void step() override {
@@ -120,18 +121,6 @@ class CreepingDisk : public Engine {
     const double x = state_.disks.x[0] + speed;
     state_.disks = test::disks_of({{x < 10.0 ? x : x - 10.0, 2.0, speed, 0.0}});
   }
-  const State& state() const override { return state_; }
-  double disks_at(double /*t*/, Disks& out) const override {
-    out = state_.disks;
-    return state_.time;
-  }
-  std::vector<DiskContact> contacts() const override { return {}; }
-  const PhaseTimes& phase_times() const override { return times_; }
-  std::vector<std::string> take_warnings() override { return {}; }
-
- private:
-  State state_;
-  PhaseTimes times_;
 };
 
 // It was not at its new speed since the last look: 100 at 0.01, then 20 at 1.
