@@ -15,7 +15,8 @@ constexpr std::size_t most_pages_a_disk = 8;
 constexpr std::size_t few_pages = 64;
 // Where there are many disks: the number of parts of the time that are divided into pages one after the other.
 constexpr std::size_t parts = 4;
-// Fewer pages than one for so many disks are no part of others, and nothing is announced: it would take longer.
+// With fewer pages than one for so many disks (an event for eight) the time is not divided in parts, unless pages are
+// shortened, and nothing is announced: going through all disks again, and page by page, would take longer.
 constexpr std::size_t disks_of_few_pages = 5;
 // Pages are shortened where the events of a page that has too many are spread over this share of it or more.
 constexpr double spread_share = 0.125;

@@ -152,8 +152,7 @@ void ParallelExact::kick_if_it_is_time() {
   if (!kicked_.empty()) change_velocities(kicked_);
 }
 
-// Of what is known of the disks, their next events: they are now, so that they are predicted at the start of the next
-// window, with all disks near them.
+// The next events of these disks are now: they are predicted when the next window starts, with all disks near them.
 void ParallelExact::change_velocities(std::span<const std::uint32_t> disks) {
   if (parts_are_known()) return halos_.change_velocities(disks);
   if (windows_.known() == Known::nothing) return;
@@ -200,8 +199,7 @@ void ParallelExact::add_disks(const Add& add) {
   }
 }
 
-// Makes the change in what is known of the disks; false where all is to be made anew, as parts are for a disk that
-// goes.
+// Makes the change in what is known of the disks; false where that is void, as parts are without one of their disks.
 bool ParallelExact::is_taken(const Edit& edit) {
   if (edit.kind == Edit::Kind::set_velocity) {
     const auto i = static_cast<std::uint32_t>(edit.index);

@@ -63,8 +63,8 @@ class HaloWindows {
                   const std::function<void(std::size_t)>& visit) const;
   Known known() const { return known_; }
 
-  // Of the last window: makes positions and velocities those at time s of it; its collisions; as of an
-  // engine.
+  // Of the last window: makes positions and velocities those at time s of it; its collisions; the largest speed of a
+  // path in it, as Engine::fastest_within.
   void move_along_paths(double s, Disks& disks) const;
   std::vector<DiskContact> contacts(double start) const;
   double fastest_within() const;

@@ -117,6 +117,19 @@ Count expect_reference(const Scene& scene, State start, int windows) {
   return all.collisions + all.wall_collisions;
 }
 
+// The sum of count(seed, draws, pairs) over so many seeds, for scenes made from them.
+template <class CountOf>
+Count over_seeds(std::uint32_t seeds, CountOf&& count) {
+  Count all = 0;
+  for (std::uint32_t seed = 1; seed <= seeds; ++seed) {
+    SCOPED_TRACE(seed);
+    test::Draws draws(seed);
+    const Pairs pairs = some_pairs(draws);
+    all += count(seed, draws, pairs);
+  }
+  return all;
+}
+
 struct Case {
   const char* name;
   Gravity gravity{};
@@ -133,18 +146,14 @@ class Grazing : public testing::TestWithParam<Case> {};
 
 TEST_P(Grazing, DisksThatPassAtTheirContactDistance) {
   const Case& c = GetParam();
-  Count collisions = 0;
-  for (std::uint32_t seed = 1; seed <= 8; ++seed) {
-    SCOPED_TRACE(seed);
-    test::Draws draws(seed);
-    const Pairs pairs = some_pairs(draws);
+  const Count collisions = over_seeds(8, [&c](std::uint32_t seed, test::Draws& draws, const Pairs& pairs) {
     const double side = pairs.side() * c.unit;
     const bool periodic = c.shear_rate != 0.0 || seed % 2 == 0;
     Scene scene = plain_scene(test::box_of(side, side, periodic, periodic), 1e9);
     scene.physics.gravity = c.gravity;
     if (c.shear_rate != 0.0) scene.box.shear = {c.shear_rate, c.shear_rate * side, 0.0};
-    collisions += expect_reference(scene, passing(draws, pairs, c.unequal_radii, c.unit), 12);
-  }
+    return expect_reference(scene, passing(draws, pairs, c.unequal_radii, c.unit), 12);
+  });
   EXPECT_GT(collisions, 100U);
 }
 
@@ -158,27 +167,19 @@ INSTANTIATE_TEST_SUITE_P(Paths, Grazing,
 // The same where windows are cut short: contacts that were predicted in one of them come after many others, at whose
 // starts paths were rounded.
 TEST(GrazingSources, DisksThatPassAtTheirContactDistance) {
-  Count collisions = 0;
-  for (std::uint32_t seed = 1; seed <= 9; ++seed) {
-    SCOPED_TRACE(seed);
-    test::Draws draws(seed);
-    const Pairs pairs = some_pairs(draws);
-    collisions += expect_reference(cut_scene(pairs, seed), passing(draws, pairs, false, 1.0), cut_windows(seed));
-  }
+  const Count collisions = over_seeds(9, [](std::uint32_t seed, test::Draws& draws, const Pairs& pairs) {
+    return expect_reference(cut_scene(pairs, seed), passing(draws, pairs, false, 1.0), cut_windows(seed));
+  });
   EXPECT_GT(collisions, 100U);
 }
 
 // By a fall's length, to the last bits.
 TEST(GrazingSides, DisksThatRiseToTheCeiling) {
-  Count collisions = 0;
-  for (std::uint32_t seed = 1; seed <= 24; ++seed) {
-    SCOPED_TRACE(seed);
-    test::Draws draws(seed);
-    const Pairs pairs = some_pairs(draws);
+  const Count collisions = over_seeds(24, [](std::uint32_t /*seed*/, test::Draws& draws, const Pairs& pairs) {
     const double g = draws.in(0.1, 1.0);
     const Scene scene = plain_scene(test::box_of(pairs.side(), pairs.side()), 1e9, g);
-    collisions += expect_reference(scene, rising(draws, pairs, g), 20);
-  }
+    return expect_reference(scene, rising(draws, pairs, g), 20);
+  });
   EXPECT_GT(collisions, 1000U);
 }
 
@@ -198,11 +199,7 @@ State under_a_sine(test::Draws& draws, double side, const SideMotion& ceiling) {
 }
 
 TEST(GrazingSides, DisksUnderASineThatComesAsFarAsTheirEdges) {
-  Count contacts = 0;
-  for (std::uint32_t seed = 1; seed <= 12; ++seed) {
-    SCOPED_TRACE(seed);
-    test::Draws draws(seed);
-    const Pairs pairs = some_pairs(draws);
+  const Count contacts = over_seeds(12, [](std::uint32_t /*seed*/, test::Draws& draws, const Pairs& pairs) {
     Scene scene = plain_scene(test::box_of(pairs.side(), pairs.side()), 1e9);
     SideMotion& ceiling = scene.box.motions[static_cast<std::size_t>(Side::top)];
     ceiling.kind = SideMotion::Kind::sine;
@@ -213,8 +210,8 @@ TEST(GrazingSides, DisksUnderASineThatComesAsFarAsTheirEdges) {
     Source source = cutting_source(pairs, 3.0);
     source.region_low.y = source.region_high.y = 0.3;
     scene.sources.push_back(source);
-    contacts += expect_reference(scene, under_a_sine(draws, pairs.side(), ceiling), 80);
-  }
+    return expect_reference(scene, under_a_sine(draws, pairs.side(), ceiling), 80);
+  });
   EXPECT_GT(contacts, 100U);
 }
 
@@ -247,15 +244,11 @@ State passing_obstacles(test::Draws& draws, const Pairs& pairs, Scene& scene) {
 }
 
 TEST(GrazingObstacles, DisksThatPassAtTheirContactDistance) {
-  Count contacts = 0;
-  for (std::uint32_t seed = 1; seed <= 12; ++seed) {
-    SCOPED_TRACE(seed);
-    test::Draws draws(seed);
-    const Pairs pairs = some_pairs(draws);
+  const Count contacts = over_seeds(12, [](std::uint32_t seed, test::Draws& draws, const Pairs& pairs) {
     Scene scene = cut_scene(pairs, seed);
     const State start = passing_obstacles(draws, pairs, scene);
-    contacts += expect_reference(scene, start, cut_windows(seed));
-  }
+    return expect_reference(scene, start, cut_windows(seed));
+  });
   EXPECT_GT(contacts, 100U);
 }
 
