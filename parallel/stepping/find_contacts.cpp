@@ -203,7 +203,7 @@ void search_strays(const SearchInput& in, const CellList& cells, const Executor&
     furthest = std::max(furthest, excursion(in, level_of(in, cells.grid, i), i));
   }
   found.strays.insert(found.strays.end(), coarse.loose.begin(), coarse.loose.end());
-  executor.run(found.used, [&](std::size_t b) {
+  executor.run_alike(found.used, [&](std::size_t b) {
     std::erase_if(found.buffers[b], [&](const Pair& p) { return (found.strayed[p.i1] | found.strayed[p.i2]) != 0; });
   });
   const std::size_t first = more_buffers(found, executor.blocks(found.strays.size(), stray_block));

@@ -41,7 +41,7 @@ void count_found(const FoundContacts& found, std::size_t disks, const Executor& 
   lists.contacts.resize(disks, 0);
   // On one thread without atomic operations, each of which waits for all before it.
   const bool shared = executor.threads() > 1;
-  executor.run(found.used, [&](std::size_t b) {
+  executor.run_alike(found.used, [&](std::size_t b) {
     const std::vector<Pair>& pairs = found.buffers[b];
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       if (k + ahead < pairs.size()) {
@@ -53,7 +53,7 @@ void count_found(const FoundContacts& found, std::size_t disks, const Executor& 
       }
     }
   });
-  executor.run(found.walls.size(), [&](std::size_t b) {
+  executor.run_alike(found.walls.size(), [&](std::size_t b) {
     for (const ContactEvent& e : found.walls[b]) count_event(lists.contacts, e);
   });
 }
@@ -122,9 +122,11 @@ double resolve_alone(const View& d, const StepRules& rules, const FoundContacts&
   const std::size_t blocks = found.used + found.walls.size();
   begin_blocks(blocks, lists);
   const WallReach reach(rules.box);
-  executor.run(found.used, [&](std::size_t b) { resolve_alone_pairs(d, rules, reach, found.buffers[b], b, lists); });
-  executor.run(found.walls.size(),
-               [&](std::size_t w) { resolve_alone_walls(d, rules, reach, found.walls[w], found.used + w, lists); });
+  executor.run_alike(found.used,
+                     [&](std::size_t b) { resolve_alone_pairs(d, rules, reach, found.buffers[b], b, lists); });
+  executor.run_alike(found.walls.size(), [&](std::size_t w) {
+    resolve_alone_walls(d, rules, reach, found.walls[w], found.used + w, lists);
+  });
   add_seen(lists);
   collect_crowded(blocks, executor, lists, tally);
   return blocks == 0 ? 0.0 : *std::max_element(lists.largest.begin(), lists.largest.end());
@@ -212,7 +214,7 @@ void gather_events(Disks& disks, const StepRules& rules, const FoundContacts& fo
   std::size_t place = found.find_offsets(lists.offsets);
   lists.events.resize(place + found.wall_contacts());
   with_view(disks, rules, [&](const auto& d) {
-    executor.run(found.used, [&](std::size_t b) {
+    executor.run_alike(found.used, [&](std::size_t b) {
       std::size_t at = lists.offsets[b];
       for (const Pair& found_pair : found.buffers[b]) {
         const Pair p = in_id_order(d.id, found_pair);

@@ -22,7 +22,7 @@ void gather_pairs(const Disks& disks, const FoundContacts& found, const Executor
       count_contact(lists.contacts[i]);
     }
   };
-  executor.run(found.used, [&](std::size_t b) {
+  executor.run_alike(found.used, [&](std::size_t b) {
     std::size_t at = lists.offsets[b];
     for (const Pair& found_pair : found.buffers[b]) {
       const Pair p = in_id_order(disks.id.data(), found_pair);

@@ -62,19 +62,22 @@ Executor::Executor(int threads, std::size_t block_divisor)
 
 Executor::~Executor() = default;
 
-void Executor::run_blocks(std::size_t blocks, Call call, void* task) const {
+void Executor::share_out(std::size_t blocks, Sharing sharing, Call call, void* task) const {
   ForkJoin order;
+  const auto run_some = [&](const tbb::blocked_range<std::size_t>& some) {
+    order.begin_block();
+    const FloatEnvironment environment;
+    for (std::size_t b = some.begin(); b != some.end(); ++b) call(task, b);
+    order.end_block();
+  };
+  const tbb::blocked_range<std::size_t> all(0, blocks, 1);
   order.before_all();
   arena_->arena.execute([&] {
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, blocks, 1),
-        [&](const tbb::blocked_range<std::size_t>& range) {
-          order.begin_block();
-          const FloatEnvironment environment;
-          for (std::size_t b = range.begin(); b != range.end(); ++b) call(task, b);
-          order.end_block();
-        },
-        tbb::auto_partitioner{});
+    if (sharing == Sharing::alike) {
+      tbb::parallel_for(all, run_some, tbb::static_partitioner{});
+    } else {
+      tbb::parallel_for(all, run_some, tbb::auto_partitioner{});
+    }
   });
   order.after_all();
 }

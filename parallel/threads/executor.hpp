@@ -5,9 +5,10 @@
 #include <oneapi/tbb/parallel_sort.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
-#include <type_traits>
 
 #include "core/base/block_runner.hpp"
 
@@ -26,27 +27,40 @@ class Executor {
 
   int threads() const { return threads_; }
 
-  // The block size to use where `block` items are the usual one, and how many such blocks n items make.
+  // The block size to use where `block` items are the usual one.
   std::size_t grain(std::size_t block) const { return std::max<std::size_t>(1, block / divisor_); }
-  std::size_t blocks(std::size_t n, std::size_t block) const { return (n + grain(block) - 1) / grain(block); }
+  // The one for n items in all: a few large blocks are alike, and a power of two, for threads to share evenly.
+  std::size_t block_size(std::size_t n, std::size_t block) const {
+    const std::size_t size = grain(block);
+    const std::size_t usual = (n + size - 1) / size;
+    if (size < least_large || usual <= 1 || usual > most_few) return size;
+    const std::size_t shares = std::bit_ceil(usual);
+    return (n + shares - 1) / shares;
+  }
+  // How many blocks of that size n items make.
+  std::size_t blocks(std::size_t n, std::size_t block) const {
+    const std::size_t size = block_size(n, block);
+    return (n + size - 1) / size;
+  }
 
   // task(b) for b = 0 .. blocks - 1. Allocates nothing of its own.
   template <class Task>
   void run(std::size_t blocks, Task&& task) const {
-    if (threads_ == 1 || blocks <= 1) {
-      for (std::size_t b = 0; b < blocks; ++b) task(b);
-      return;
-    }
-    using Plain = std::remove_reference_t<Task>;
-    run_blocks(
-        blocks, [](void* t, std::size_t b) { (*static_cast<Plain*>(t))(b); }, std::addressof(task));
+    run_blocks(blocks, task, Sharing::as_they_come);
   }
 
-  // task(b, begin, end) for consecutive ranges of grain(block) items that cover n.
+  // Likewise, of blocks that take about as long as each other. Few are shared out alike in all runs: what a thread has
+  // written of a small system is in its own cache when its next run comes to it.
+  template <class Task>
+  void run_alike(std::size_t blocks, Task&& task) const {
+    run_blocks(blocks, task, blocks <= most_alike ? Sharing::alike : Sharing::as_they_come);
+  }
+
+  // task(b, begin, end) for consecutive ranges of block_size(n, block) items that cover n.
   template <class Task>
   void for_ranges(std::size_t n, std::size_t block, Task&& task) const {
-    const std::size_t size = grain(block);
-    run(blocks(n, block), [&](std::size_t b) { task(b, b * size, std::min(n, (b + 1) * size)); });
+    const std::size_t size = block_size(n, block);
+    run_alike(blocks(n, block), [&](std::size_t b) { task(b, b * size, std::min(n, (b + 1) * size)); });
   }
 
   // std::sort's result for a total order without equal items, whatever the number of threads.
@@ -54,8 +68,15 @@ class Executor {
   void sort(Iterator begin, Iterator end, Less less) const;
 
  private:
+  static constexpr std::size_t least_large = 4096;
+  static constexpr std::size_t most_few = 8;
+  // With more of them, those that come first are worth more than those whose data are near.
+  static constexpr std::size_t most_alike = 4;
   using Call = void (*)(void*, std::size_t);
-  void run_blocks(std::size_t blocks, Call call, void* task) const;
+  enum class Sharing : std::uint8_t { as_they_come, alike };
+  template <class Task>
+  void run_blocks(std::size_t blocks, Task& task, Sharing sharing) const;
+  void share_out(std::size_t blocks, Sharing sharing, Call call, void* task) const;
   void enter(Call call, void* task) const;  // calls it once, with all threads at hand
 
   struct Arena;
@@ -63,6 +84,16 @@ class Executor {
   std::size_t divisor_;
   std::unique_ptr<Arena> arena_;
 };
+
+template <class Task>
+void Executor::run_blocks(std::size_t blocks, Task& task, Sharing sharing) const {
+  if (threads_ == 1 || blocks <= 1) {
+    for (std::size_t b = 0; b < blocks; ++b) task(b);
+    return;
+  }
+  share_out(
+      blocks, sharing, [](void* t, std::size_t b) { (*static_cast<Task*>(t))(b); }, std::addressof(task));
+}
 
 #ifdef CAROM_THREAD_SANITIZER
 inline constexpr bool under_thread_sanitizer = true;
