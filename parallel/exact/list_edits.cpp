@@ -1,11 +1,13 @@
 // Neighbour lists while a program or a source adds disks between windows, or a program takes some away.
 #include <vector>
 
+#include "parallel/exact/most_listed.hpp"
 #include "parallel/exact/neighbour_lists.hpp"
 
 namespace carom {
 
 void NeighbourLists::append(const Disks& d, std::uint32_t i, Vec2 at) {
+  check_listed(std::size_t{i} + 1);
   const FixedPointPosition position = listed_box_.fixed_point(at.x, at.y);
   const ListRegion everything;
   ++first_of_tile_.back();

@@ -11,7 +11,8 @@ std::size_t list_kernel_baseline(const ListQuery& query, const SlotColumns& colu
   // No branch depends on a position: which disks are near is as good as random.
   const auto take = [&](std::uint32_t c, std::uint32_t slot) {
     const std::uint32_t disk = columns.cell[c].disk[slot];
-    const float radius = columns.radius != nullptr ? columns.radius[c * slots_a_cell + slot] : query.radius;
+    const float radius =
+        columns.radius != nullptr ? columns.radius[std::size_t{c} * slots_a_cell + slot] : query.radius;
     found[n] = disk;
     n += static_cast<unsigned>(is_neighbour(query, columns.cell[c].position[slot], radius)) &
          static_cast<unsigned>(disk != empty_slot) & static_cast<unsigned>(disk != query.self);

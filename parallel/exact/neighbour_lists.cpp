@@ -7,6 +7,7 @@
 #include "core/physics/boundary.hpp"
 #include "core/physics/obstacle_contact.hpp"
 #include "parallel/cells/crowding.hpp"
+#include "parallel/exact/most_listed.hpp"
 
 namespace carom {
 
@@ -28,6 +29,7 @@ void FoundNeighbours::grow(std::size_t disks) {
 
 void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout, const Executor& executor,
                            const Sorted& sorted) {
+  check_listed(d.size());
   mode_ = layout.mode;
   box_ = box;
   listed_box_ = ListedBox(box);

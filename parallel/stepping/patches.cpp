@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/disks/cell_index.hpp"
+#include "parallel/stepping/most_contacts.hpp"
 
 namespace carom {
 
@@ -70,6 +71,7 @@ std::uint32_t patch_of(std::uint32_t quarter, std::uint32_t shift, std::uint32_t
 
 bool lay_out(Patches& patches, const Disks& d, const std::vector<std::uint16_t>& in_contact, std::size_t contacts,
              const Executor& executor) {
+  check_contacts(contacts);
   const std::size_t wanted = std::min<std::size_t>(contacts / executor.grain(patch_contacts), 0x7fff);
   patches.first = {0, 0, 0, 0, 1};
   if (wanted < 2) return false;
@@ -93,6 +95,7 @@ bool lay_out(Patches& patches, const Disks& d, const std::vector<std::uint16_t>&
 }
 
 void take_as_one_patch(Patches& patches, std::size_t contacts) {
+  check_contacts(contacts);
   patches.first = {0, 0, 0, 0, 1};
   patches.start.assign({0U, static_cast<std::uint32_t>(contacts)});
 }

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "parallel/stepping/contact_count.hpp"
+#include "parallel/stepping/most_contacts.hpp"
 #include "parallel/stepping/resolve_contacts.hpp"
 #include "parallel/stepping/settle_phases.hpp"
 #include "parallel/threads/resize_amply.hpp"
@@ -13,6 +14,7 @@ void gather_pairs(const Disks& disks, const FoundContacts& found, const Executor
   lists.contacts.resize(disks.size(), 0);
   std::vector<IdPair>& pairs = lists.settle.pairs.found;
   std::size_t place = found.find_offsets(lists.offsets);
+  check_contacts(place + found.wall_contacts());
   resize_amply(pairs, place + found.wall_contacts());
   const bool shared = executor.threads() > 1;
   const auto count = [&](std::uint32_t i) {

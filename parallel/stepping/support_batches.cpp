@@ -1,10 +1,12 @@
 #include "parallel/stepping/support_batches.hpp"
 
+#include "parallel/stepping/most_contacts.hpp"
 #include "parallel/threads/resize_amply.hpp"
 
 namespace carom {
 
 void begin_batches(SupportBatches& batches, const Patches& patches, std::size_t disks) {
+  check_numbered(disks, most_disks_of_pile, "disks of a pile");
   const std::size_t contacts = patches.start.back();
   resize_amply(batches.first, patches.count() + 1);
   resize_amply(batches.slot, contacts);
@@ -16,6 +18,7 @@ void begin_batches(SupportBatches& batches, const Patches& patches, std::size_t 
 void lay_out_batches(SupportBatches& batches) {
   batches.first[0] = 0;
   for (std::size_t q = 1; q < batches.first.size(); ++q) batches.first[q] += batches.first[q - 1];
+  check_numbered(batch_lanes * batches.first.back(), most_contacts, "slots of supports");
   resize_amply(batches.batch, batches.first.back());
 }
 

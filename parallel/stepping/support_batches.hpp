@@ -22,7 +22,7 @@ struct alignas(32) SupportBatch {  // as Support
   double inverse1[batch_lanes], inverse2[batch_lanes];  // the second is 0 for a wall alone, and where there is none
   double wall_speed[batch_lanes];
   double effective[batch_lanes];
-  // Twice where the disks are stored: where their velocities are, counted in doubles. (2^31 disks need 200 GB.)
+  // Twice where the disks are stored: where their velocities are, counted in doubles.
   std::uint32_t v1[batch_lanes], v2[batch_lanes];
 };
 

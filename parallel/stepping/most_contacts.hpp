@@ -1,0 +1,31 @@
+// How much of a step can be numbered with 32 bits.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include "core/base/check.hpp"
+
+namespace carom {
+
+// The contacts of a step, and the slots of its supports (SupportBatches): the last number means none.
+inline constexpr std::size_t most_contacts = std::numeric_limits<std::uint32_t>::max() - std::size_t{1};
+
+// The disks of a pile: velocities are found by twice the number of a disk, and behind all disks are the spare ones of
+// the patches (SupportBatches).
+inline constexpr std::size_t most_disks_of_pile = (std::size_t{1} << 31U) - (std::size_t{1} << 20U);
+
+// Throws RunError where there are more. what: contacts, say.
+inline void check_numbered(std::size_t count, std::size_t most, const std::string& what) {
+  if (count <= most) return;
+  throw RunError("pairwise: " + std::to_string(count) + " " + what + " are more than one process can number, " +
+                 std::to_string(most) + "; run it on several ranks");
+}
+
+inline void check_contacts(std::size_t contacts) {
+  check_numbered(contacts, most_contacts, "contacts in a step");
+}
+
+}  // namespace carom
