@@ -75,13 +75,14 @@ State moved_by_rounding(State state) {
 
 // Where a short run ended, and which disks collided.
 struct Flight {
-  std::vector<Vec2> places;  // by id
+  std::vector<Vec2> places;  // in order of id
   CollisionLog collisions;   // sorted
 };
 
+// Ids of fixed disks, which are obstacles, lie among those of the disks.
 std::vector<Vec2> places_of(const Disks& d) {
-  std::vector<Vec2> places(d.size());
-  for (std::size_t i = 0; i < d.size(); ++i) places[d.id[i]] = {d.x[i], d.y[i]};
+  std::vector<Vec2> places;
+  for (const std::size_t i : by_id(d)) places.push_back({d.x[i], d.y[i]});
   return places;
 }
 

@@ -131,6 +131,25 @@ TEST_F(ChartOwn, FixedDisksAreNotCounted) {
                "cannot be charted: nothing collides; expected two disks or more");
 }
 
+// Fixed disks before the others have the first ids.
+TEST_F(ChartOwn, FixedDisksMayComeFirst) {
+  const std::string all = gas;
+  const std::size_t disks = all.find("[[disks]]");
+  const std::string pegs = "[[disks]]\nfixed = true\ncount = 30\npositions = \"hexagonal\"\nradius = 0.05\n";
+  write("pegs_first.toml", all.substr(0, disks) + pegs + all.substr(disks));
+  const Outcome o = carom("chart --tiny --scene pegs_first.toml -o pegs_first");
+  ASSERT_EQ(o.status, 0) << o.err;
+  const std::string csv = text_of(at("pegs_first/chart.csv"));
+  std::istringstream rows(csv);
+  double exact = 1.0;
+  for (std::string row; std::getline(rows, row);) {
+    const std::size_t path = row.find(",path,");
+    if (row.find(",exact,0,") != std::string::npos && path != std::string::npos)
+      exact = std::stod(row.substr(path + 6));
+  }
+  EXPECT_LT(exact, 1e-6) << csv;
+}
+
 TEST_F(ChartOwn, BrownianMotionHasItsOwnFigure) {
   const Outcome o = carom("chart --tiny --scene my.gas.toml --set physics.diffusion=0.5 -o brownian");
   ASSERT_EQ(o.status, 0) << o.err;
