@@ -33,23 +33,30 @@ Row row_at(const CircleLattice& lattice, double spacing, double row) {
   return {shift, -std::floor(half + shift), std::floor(half - shift)};
 }
 
-double sites(const CircleLattice& lattice, double spacing) {
+// How many sites there are, counted up to `enough` or a little further: a large circle may have more rows than sites
+// are wanted.
+double sites(const CircleLattice& lattice, double spacing, double enough) {
   const double last = last_row(lattice, spacing);
   double all = 0.0;
-  for (double row = -last; row <= last; row += 1.0) {
+  for (double row = -last; row <= last && all < enough; row += 1.0) {
     const Row r = row_at(lattice, spacing, row);
     all += std::max(0.0, r.last - r.first + 1.0);
   }
   return all;
 }
 
+// Wide enough that the site at the centre is alone.
+double spacing_of_one(const CircleLattice& lattice) {
+  return 2.0 * lattice.reach + 2.0 * lattice.diameter;
+}
+
 // The widest spacing with room for so many, by bisection: their number falls, all but steadily, as it grows.
 double widest_spacing(const CircleLattice& lattice, double count) {
   double fits = lattice.diameter;
-  double too_wide = 2.0 * lattice.reach + 2.0 * lattice.diameter;  // holds the centre alone
+  double too_wide = spacing_of_one(lattice);
   for (int step = 0; step < 60; ++step) {
     const double middle = 0.5 * (fits + too_wide);
-    (sites(lattice, middle) >= count ? fits : too_wide) = middle;
+    (sites(lattice, middle, count) >= count ? fits : too_wide) = middle;
   }
   return fits;
 }
@@ -62,13 +69,14 @@ struct Site {
 }  // namespace
 
 Count circle_capacity(const CircleLattice& lattice) {
-  return static_cast<Count>(std::min(sites(lattice, lattice.diameter), 4.3e9));
+  constexpr double most = 4.3e9;  // more than disks have ids
+  return static_cast<Count>(std::min(sites(lattice, lattice.diameter, most), most));
 }
 
 std::vector<Vec2> circle_sites(const CircleLattice& lattice, Count count) {
   const auto wanted = static_cast<double>(count);
-  if (sites(lattice, lattice.diameter) < wanted) return {};
-  const double spacing = count == 1 ? lattice.diameter : widest_spacing(lattice, wanted);
+  if (sites(lattice, lattice.diameter, wanted) < wanted) return {};
+  const double spacing = count == 1 ? spacing_of_one(lattice) : widest_spacing(lattice, wanted);
   std::vector<Site> all;
   const double last = last_row(lattice, spacing);
   for (double row = -last; row <= last; row += 1.0) {

@@ -168,6 +168,19 @@ TEST(StartRegion, ItHasNoEdgeWhereItSpansAPeriodicSide) {
   EXPECT_EQ(state_hash(start_of(all)), state_hash(start_of(replaced(all, "region = [0.0, 0.0, 40.0, 30.0]\n", ""))));
 }
 
+// A circle of which a lattice of touching disks would fill thousands of millions of places holds a few at once.
+TEST(CircleLattice, FewDisksInALargeCircleAreFoundAtOnce) {
+  constexpr double reach = 1e9;
+  for (const bool hexagonal : {false, true}) {
+    const std::vector<Vec2> one = circle_sites({hexagonal, reach, 1.0}, 1);
+    ASSERT_EQ(one.size(), 1U);
+    EXPECT_EQ(one[0], (Vec2{0.0, 0.0}));
+    const std::vector<Vec2> seven = circle_sites({hexagonal, reach, 1.0}, 7);
+    ASSERT_EQ(seven.size(), 7U);
+    for (const Vec2 p : seven) EXPECT_LE(std::hypot(p.x, p.y), reach * (1.0 + 1e-9));
+  }
+}
+
 TEST(StartRegion, ALatticeInACircleIsCentredAndAsWideAsItCanBe) {
   // Seven touching disks fill a circle of three radii.
   const std::vector<Vec2> seven = circle_sites({true, 2.0, 2.0}, 7);
