@@ -39,9 +39,6 @@ void check_flight(const Scene& scene, double distance, const std::string& where,
              fmt::format("expected at most 2^53 = {:g} times", most_crossings));
 }
 
-// No normal deviate of this program is larger.
-constexpr double largest_deviate = 9.0;
-
 // what: has that speed.
 void check_speed(const Scene& scene, double speed, const std::string& where, const std::string& what) {
   if (!(speed <= magnitudes_of(Dimension::speed).most)) {
@@ -150,7 +147,9 @@ void check_times(const Scene& scene, const PlaceOfKey& place) {
     if (interval > 0.0) check_count(t_end / interval, interval, key, noun, t_end, place);
   };
   if (steps_in_time(scene)) check(scene.run.dt, "run.dt", "steps");
-  check(scene.physics.thermostat.dt, "physics.thermostat.dt", "kicks");
+  if (const Thermostat& bath = scene.physics.thermostat; bath.acts()) {
+    check(bath.interval(scene.run.dt), bath.dt > 0.0 ? "physics.thermostat.dt" : "run.dt", "kicks");
+  }
   check(scene.output.every, "output.every", "frames");
   check(scene.analysis.every, "analysis.every", "samples");
   for (const Side side : all_sides) {

@@ -9,6 +9,9 @@
 
 namespace carom {
 
+// No normal deviate of this program is larger.
+inline constexpr double largest_deviate = 9.0;
+
 // Sides that came out of a packing fraction.
 void check_box_range(const Scene& scene, const PlaceOfKey& place);
 

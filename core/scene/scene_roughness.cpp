@@ -7,6 +7,7 @@
 
 #include "core/base/input_message.hpp"
 #include "core/scene/scene_laws.hpp"
+#include "core/scene/scene_range_check.hpp"
 #include "core/scene/scene_ranges.hpp"
 
 namespace carom {
@@ -100,7 +101,6 @@ void check_surfaces(const Scene& scene, const PlaceOfKey& place) {
 void check_spins(const Scene& scene, const SpinLaw& law, double smallest_mass, double largest_radius,
                  std::string_view path, const PlaceOfKey& place) {
   if (!scene.physics.surfaces.are_rough()) return;
-  constexpr double largest_deviate = 9.0;  // no normal deviate of this program is larger
   const double most = magnitudes_of(Dimension::speed).most;
   const auto check = [&](double surface_speed, const std::string& key, const std::string& what) {
     if (surface_speed <= most) return;

@@ -12,6 +12,7 @@
 #include "core/disks/obstacle_cells.hpp"
 #include "core/physics/obstacle_contact.hpp"
 #include "core/scene/size_law.hpp"
+#include "core/scene/swept_room.hpp"
 #include "core/start/between_sides.hpp"
 #include "core/start/initial_velocities.hpp"
 #include "core/start/lattice_places.hpp"
@@ -149,7 +150,7 @@ void check_clear_of_walls(const Scene& scene, const Domain& box, const Disks& di
   if (box.obstacles == nullptr) return;
   const double r = disks.radius_of(i);
   for_each_solid_touched(box, disks.x[i], disks.y[i], r, [&](std::uint32_t k, const ObstacleGap& gap) {
-    if (!(gap.beyond > side_slack(r, std::max(box.width, box.height)))) return;
+    if (!(gap.beyond > slack_of_sides(box, r))) return;
     fail_input(place_in_group(scene, group_of(scene, i), "positions"),
                fmt::format("disk {} overlaps the {} by {:.6g}", i, name_of((*box.obstacles)[k]), gap.beyond),
                "expected disks clear of walls");

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "core/scene/disk_group.hpp"
 #include "core/start/placement_search.hpp"
 
 namespace carom {
@@ -34,10 +35,7 @@ std::string place_in_group(const Scene& scene, std::size_t group, std::string_vi
 }
 
 std::size_t group_of(const Scene& scene, DiskId id) {
-  std::size_t group = 0;
-  Count end = scene.groups[0].count;
-  while (id >= end) end += scene.groups[++group].count;
-  return group;
+  return group_of(ends_of_groups(scene), id);
 }
 
 }  // namespace carom

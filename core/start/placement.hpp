@@ -23,12 +23,6 @@ using PlaceAtRandom = std::function<void(const Scene&, Disks&, PlacementGrid&, s
 // place_at_random, which calls watch after every few disks; what that throws ends it.
 PlaceAtRandom place_watched(std::function<void()> watch);
 
-// Rounding of decimals may put a touching disk this far beyond a wall: 1e-12 of its radius, and four units in the last
-// place of the box.
-inline double side_slack(double radius, double length) {
-  return 1e-12 * radius + 0x1p-50 * length;
-}
-
 // "file:line: disks.g.key", where messages about group g point.
 std::string place_in_group(const Scene& scene, std::size_t group, std::string_view key);
 

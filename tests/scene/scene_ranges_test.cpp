@@ -79,6 +79,10 @@ TEST(Range, OfNumbersAgainstEachOther) {
   EXPECT_EQ(
       with("dt = 0.01", "dt = 1e-20"),
       "gas.toml:22: run.dt: is 1e-20: 1e+21 steps until run.t_end = 10; expected at most 2^53 = 9.0072e+15 of them");
+  // A thermostat without a time of its own kicks at every dt, by exact too.
+  const std::string bath = "thermostat = { kind = \"andersen\", temperature = 1.0, rate = 0.5 }";
+  const std::string kicked = replaced(replaced(sound_scene, "restitution = 0.5", bath), "pairwise", "exact");
+  EXPECT_THAT(complaint(replaced(kicked, "dt = 0.01", "dt = 1e-20")), HasSubstr("run.dt: is 1e-20: 1e+21 kicks until"));
   EXPECT_THAT(with("[run]", "[output]\nevery = 1e-29\n[run]"),
               HasSubstr("21: output.every: is 1e-29: 1e+30 frames until"));
   EXPECT_THAT(with("[run]", "[analysis]\nwhat = [\"speeds\"]\nevery = 1e-29\n[run]"),
