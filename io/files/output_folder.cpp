@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <mutex>
 #include <utility>
+#include <vector>
 
 #include "core/base/check.hpp"
 #include "io/files/checkpoint_names.hpp"
@@ -78,18 +80,25 @@ fs::path normal(const fs::path& folder) {
 
 // The lock of a folder is a record lock on a file in it: it belongs to the process alone, so no child inherits it, not
 // even between its fork and its exec, and it ends with the process however that ends. The process loses it when it
-// closes any descriptor of the file, so it opens no second one: it keeps a list of the files that it holds.
+// closes any descriptor of the file, so it opens no second one: it keeps a list of the files that it holds. A program
+// may run scenes on several threads.
 constexpr const char* lock_name = "lock";
 
-std::vector<fs::path>& locks_held() {
-  static std::vector<fs::path> held;
-  return held;
-}
+struct LocksHeld {
+  std::mutex mutex;
+  std::vector<fs::path> files;
 
-bool is_held(const fs::path& file) {
-  std::error_code error;
-  return std::any_of(locks_held().begin(), locks_held().end(),
-                     [&](const fs::path& held) { return fs::equivalent(held, file, error); });
+  // Precondition: the mutex is held.
+  bool has(const fs::path& file) const {
+    std::error_code error;
+    return std::any_of(files.begin(), files.end(),
+                       [&](const fs::path& held) { return fs::equivalent(held, file, error); });
+  }
+};
+
+LocksHeld& locks_held() {
+  static LocksHeld held;
+  return held;
 }
 
 struct flock whole_file() {
@@ -102,13 +111,15 @@ struct flock whole_file() {
 // A descriptor that holds the lock on a folder; -1 where another run has it. File systems without locks have none.
 int take_lock(const fs::path& folder, bool& another) {
   const fs::path file = folder / lock_name;
-  another = is_held(file);
+  LocksHeld& held = locks_held();
+  const std::lock_guard guard(held.mutex);
+  another = held.has(file);
   if (another) return -1;
   const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   struct flock lock = whole_file();
   another = descriptor >= 0 && fcntl(descriptor, F_SETLK, &lock) != 0 && (errno == EACCES || errno == EAGAIN);
   if (!another) {
-    if (descriptor >= 0) locks_held().push_back(fs::absolute(file));
+    if (descriptor >= 0) held.files.push_back(fs::absolute(file));
     return descriptor;
   }
   ::close(descriptor);
@@ -117,13 +128,17 @@ int take_lock(const fs::path& folder, bool& another) {
 
 void give_up_lock(const fs::path& folder, int descriptor) {
   if (descriptor < 0) return;
-  std::erase(locks_held(), fs::absolute(folder / lock_name));
+  LocksHeld& held = locks_held();
+  const std::lock_guard guard(held.mutex);
+  std::erase(held.files, fs::absolute(folder / lock_name));
   ::close(descriptor);
 }
 
 bool locked_by_another(const fs::path& folder) {
   const fs::path file = folder / lock_name;
-  if (is_held(file)) return true;
+  LocksHeld& held = locks_held();
+  const std::lock_guard guard(held.mutex);
+  if (held.has(file)) return true;
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return false;
   struct flock lock = whole_file();

@@ -7,9 +7,12 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <csignal>
 #include <filesystem>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include "core/base/check.hpp"
 #include "io/files/output_file.hpp"
@@ -54,6 +57,28 @@ TEST_F(OutputFolderTest, ResultsAppearOnlyWhenFinished) {
   EXPECT_EQ(text(folder / "series.csv"), "t\n");
   EXPECT_EQ(text(folder / "summary.json"), "{}");
   EXPECT_FALSE(fs::exists(folder / "carom-unfinished"));
+}
+
+// A program may run scenes side by side: each folder is locked for one of them, whatever the others begin and end.
+TEST_F(OutputFolderTest, ThreadsHaveFoldersOfTheirOwn) {
+  std::atomic<int> refused = 0;
+  {
+    std::vector<std::jthread> threads;
+    for (int t = 0; t < 4; ++t) {
+      threads.emplace_back([&, t] {
+        for (int k = 0; k < 50; ++k) {
+          const fs::path folder = base_ / std::to_string(t) / std::to_string(k);
+          const OutputFolder out(folder, base_ / "input.toml", false);
+          try {
+            const OutputFolder again(folder);
+          } catch (const InputError&) {
+            ++refused;
+          }
+        }
+      });
+    }
+  }
+  EXPECT_EQ(refused, 200);
 }
 
 TEST_F(OutputFolderTest, AFailedRunLeavesNothing) {
