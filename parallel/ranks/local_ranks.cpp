@@ -183,15 +183,18 @@ class LocalRanks final : public Ranks {
 void run_on_local_ranks(int count, const std::function<void(Ranks&)>& body) {
   Meeting meeting(count);
   std::vector<std::thread> threads;
-  for (int r = 0; r < count; ++r) {
-    threads.emplace_back([&, r] {
-      try {
-        LocalRanks ranks(meeting, r);
-        body(ranks);
-      } catch (...) {
-        meeting.fail(std::current_exception());
-      }
-    });
+  const auto run_rank = [&](int r) {
+    try {
+      LocalRanks ranks(meeting, r);
+      body(ranks);
+    } catch (...) {
+      meeting.fail(std::current_exception());
+    }
+  };
+  try {
+    for (int r = 0; r < count; ++r) threads.emplace_back(run_rank, r);
+  } catch (...) {  // a thread could not be started: those that run would wait for it for ever
+    meeting.fail(std::current_exception());
   }
   for (std::thread& thread : threads) thread.join();
   if (meeting.error()) std::rethrow_exception(meeting.error());
