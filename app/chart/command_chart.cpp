@@ -85,7 +85,7 @@ Json number(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
 }
 
-// For each scene and error: what each method costs at an error of 1e-3 and 1e-4, and which is the cheapest.
+// For each scene and error: what each method costs at an error of 1e-2, 1e-3 and 1e-4, and which is the cheapest.
 Json verdicts_of(const chart::SceneResult& scene) {
   Json all = Json::array();
   for (const chart::Measure measure :

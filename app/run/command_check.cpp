@@ -14,6 +14,7 @@
 #include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
 #include "core/base/wall_clock.hpp"
+#include "core/disks/fastest_speed.hpp"
 #include "core/load/memory_need.hpp"
 #include "core/load/method_rates.hpp"
 #include "core/load/scene_check.hpp"

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/disks/cell_index.hpp"
+#include "core/disks/fastest_speed.hpp"
 
 namespace carom {
 
@@ -94,16 +95,10 @@ void follow_rounds_of(DisplacementTally& tally, const Disks& d, const Domain& bo
 
 }  // namespace
 
-double largest_speed(const Disks& d) {
-  double largest2 = 0.0;
-  for (std::size_t i = 0; i < d.size(); ++i) largest2 = std::max(largest2, d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
-  return std::sqrt(largest2);
-}
-
-double largest_speed(const DisksInPieces& disks) {
-  double largest = 0.0;
-  disks.visit([&](const Disks& some) { largest = std::max(largest, largest_speed(some)); });
-  return largest;
+double fastest_speed(const DisksInPieces& disks) {
+  double fastest = 0.0;
+  disks.visit([&](const Disks& some) { fastest = std::max(fastest, fastest_speed(some)); });
+  return fastest;
 }
 
 void begin_displacement(DisplacementTally& tally, const DisksInPieces& disks, const Domain& box) {
@@ -114,7 +109,7 @@ void begin_displacement(DisplacementTally& tally, const DisksInPieces& disks, co
   tally.x = empty_axis(disks.size(), rounds_x);
   tally.y = empty_axis(disks.size(), rounds_y);
   disks.visit([&](const Disks& d) {
-    tally.fastest = std::max(tally.fastest, largest_speed(d));
+    tally.fastest = std::max(tally.fastest, fastest_speed(d));
     begin_axis(tally.x, d.x, d.id, box.width, rounds_x);
     begin_axis(tally.y, d.y, d.id, box.height, rounds_y);
   });
@@ -134,7 +129,7 @@ void follow_rounds(DisplacementTally& tally, const DisksInPieces& disks, const D
   if (!tally.begun) {
     tally.begun = true;
     tally.checked_at = disks.time();
-    tally.fastest = largest_speed(disks);
+    tally.fastest = fastest_speed(disks);
     // Ids begin without gaps: room that need not grow piece by piece.
     if (box.periodic_x()) tally.x.sixteenth.reserve(disks.size());
     if (box.periodic_y()) tally.y.sixteenth.reserve(disks.size());

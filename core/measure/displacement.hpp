@@ -36,9 +36,8 @@ struct DisplacementTally {
   Count doubtful = 0;       // moves between two looks that were, or may have been, too long to be sure of
 };
 
-// sqrt(vx^2 + vy^2) of the fastest disk, 0 without disks.
-double largest_speed(const Disks& disks);
-double largest_speed(const DisksInPieces& disks);
+// As fastest_speed(const Disks&): length / time, 0 without disks.
+double fastest_speed(const DisksInPieces& disks);
 
 // From here on displacements count, of the disks that are there.
 void begin_displacement(DisplacementTally& tally, const DisksInPieces& disks, const Domain& box);

@@ -46,7 +46,7 @@ bool follow_disks(DisplacementTally& tally, const Engine& engine, const Scene& s
       gives_speed(scene) || now->size() < few_disks || !(reach(speed, t - tally.checked_at) < check_share * period);
   if (ask) {
     // Within a window of exact a hot wall may have set a disk going that a cold one has stopped since.
-    tally.fastest = std::max(largest_speed(*now), engine.fastest_within());
+    tally.fastest = std::max(fastest_speed(*now), engine.fastest_within());
     tally.checked_at = t;
     speed = std::max(speed, tally.fastest);
   }

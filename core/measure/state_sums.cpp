@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "core/disks/fastest_speed.hpp"
 #include "core/disks/obstacle_cells.hpp"
 #include "core/disks/state_hash.hpp"
 #include "core/step/validity.hpp"

@@ -189,14 +189,6 @@ void check_crushed(const Scene& scene, const State& state) {
       time, scene.run.dt, deepest.id1, 100.0 * deepest.size, into, moving_walls_text(scene.box, time)));
 }
 
-double fastest_speed(const Disks& disks) {
-  double fastest2 = 0.0;
-  for (std::size_t i = 0; i < disks.size(); ++i) {
-    fastest2 = std::max(fastest2, disks.vx[i] * disks.vx[i] + disks.vy[i] * disks.vy[i]);
-  }
-  return std::sqrt(fastest2);
-}
-
 std::vector<std::string> validity_of(const Scene& scene, double smallest_radius, double fastest) {
   std::vector<std::string> warnings;
   const double period = shortest_period(scene);

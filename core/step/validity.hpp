@@ -110,10 +110,9 @@ inline constexpr double crushed_overlap = 0.25;
 void check_crushed(const Scene& scene, const State& state);
 
 // What can be said before the first step: places too coarse for the radii or for the way of a step, Brownian intervals
-// too long. One line each. smallest_radius, fastest speed: of the disks at the start, 0 if there are none or none
+// too long. One line each. smallest_radius, fastest (speed): of the disks at the start, 0 if there are none or none
 // moves.
 std::vector<std::string> validity_of(const Scene& scene, double smallest_radius, double fastest = 0.0);
-double fastest_speed(const Disks& disks);
 
 // What a run at its end has to say of disks that still wait for room: a line for each source whose share of them is
 // above most_waiting, or that never gave one. when: how the line begins, before the time.

@@ -1,5 +1,5 @@
-// What happens between two windows of the exact method: sources emit, Brownian velocities are drawn; and the times at
-// which a window must end for that.
+// What happens between two windows of the exact method: sources emit, Brownian velocities are drawn, a thermostat
+// kicks; and the times at which a window must end for that.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,8 @@
 namespace carom {
 
 // Earliest time after state.time at which a window must end: the end of the run, the next time at which a source that
-// has disks left tries one, the end of the Brownian interval, the end of a piece of a side's motion.
+// has disks left tries one, the end of the Brownian interval, the thermostat's next kick, the end of a piece of the
+// motion of a side or an inner wall.
 double next_cut(const Scene& scene, const State& state);
 
 // Every source whose emission time is state.time, but for rounding, emits what is due, each disk at the first of 32

@@ -12,10 +12,12 @@ namespace carom {
 // /displacement       mean_square, disks: those that it is a mean over
 // /pressure, /collision_rate   value: mean over the interval, which ends with the step that the sample lies in; NaN
 //                              where no step has ended since the sample before; the mean weighs by intervals
-// /pair_correlation   r, g; pairs: ordered ones counted
+// /pair_correlation   r, g; pairs: ordered ones counted; in partial, where groups are named, g:A:B and pairs:A:B
+// /bond_correlation   r, g6; pairs counted
 // /speeds             u = v sqrt(m / T), measured, maxwell (both densities, means over the bin); counts
-// /density            position, packing_fraction, number_density; centres counted
-// /profile            position, velocity_x, velocity_y, temperature; disks counted
+// /density            position, packing_fraction, number_density; centres counted; in rows, where the scene says every,
+//                     the same of each part of the run as tables [row][bin], and the time at which it begins
+// /profile            position, velocity_x, velocity_y, temperature; disks counted; rows likewise
 // /velocity_autocorrelation, /bond_autocorrelation, /bond_order   value; value; local, global: an entry a sample
 // /structure_factor   kx, along_x; ky, along_y: along periodic axes
 // /parameters/scene   the scene with all defaults, as TOML

@@ -84,7 +84,7 @@ std::vector<H5mdColumn> h5md_columns(const Scene& scene) {
   return columns;
 }
 
-std::string group_of(const std::string& dataset) {
+std::string parent_group(const std::string& dataset) {
   return dataset.substr(0, dataset.rfind('/'));
 }
 

@@ -43,7 +43,7 @@ std::vector<std::size_t> observables_of(const Scene& scene);
 std::vector<H5mdColumn> h5md_columns(const Scene& scene);
 
 // The group that a dataset lies in.
-std::string group_of(const std::string& dataset);
+std::string parent_group(const std::string& dataset);
 
 // Lengths of a column over so many frames.
 Extent shape_of(const H5mdColumn& column, Count frames);

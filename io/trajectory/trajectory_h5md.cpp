@@ -168,7 +168,7 @@ void H5mdWriter::File::make_elements() {
           output.make_dataset(e.name, e.kind, {places}, {limit}, {chunk}, growing ? Packing::plain : Packing::deflate);
       continue;
     }
-    output.make_group(group_of(e.name));
+    output.make_group(parent_group(e.name));
     Extent size{0, places}, most{H5S_UNLIMITED, limit}, block{1, chunk};
     if (e.components > 1) {
       for (Extent* const extent : {&size, &most, &block}) extent->push_back(e.components);
@@ -177,14 +177,14 @@ void H5mdWriter::File::make_elements() {
   }
   output.make_group("/observables");
   for (H5mdColumn& c : columns) {
-    const std::string group = group_of(c.name);
+    const std::string group = parent_group(c.name);
     if (group != root + "position") output.make_group(group);
     Extent size{0}, most{H5S_UNLIMITED}, block{frames_per_column_chunk};
     for (Extent* const extent : {&size, &most, &block}) extent->insert(extent->end(), c.shape.begin(), c.shape.end());
     c.set = output.make_dataset(c.name, c.kind, size, most, block, Packing::plain);
   }
   const auto share = [&](const std::string& name) {
-    const std::string group = group_of(name);
+    const std::string group = parent_group(name);
     if (group == root + "position") return;
     output.link(root + "position/step", group + "/step");
     output.link(root + "position/time", group + "/time");

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <iterator>
@@ -11,6 +10,7 @@
 #include <string_view>
 
 #include "core/base/check.hpp"
+#include "core/scene/scene_names.hpp"
 #include "io/view/base64.hpp"
 
 namespace carom {
@@ -102,14 +102,12 @@ std::string table_of(const ViewEncoder& encoder) {
   return table;
 }
 
-const char* word_of(SideKind kind) {
-  constexpr std::array<const char*, 3> words{"wall", "periodic", "sink"};
-  return words[static_cast<std::size_t>(kind)];
+std::string_view word_of(SideKind kind) {
+  return side_kind_names[static_cast<std::size_t>(kind)];
 }
 
-const char* word_of(ColourBy colour) {
-  constexpr std::array<const char*, 5> words{"speed", "group", "radius", "mass", "id"};
-  return words[static_cast<std::size_t>(colour)];
+std::string_view word_of(ColourBy colour) {
+  return colour_names[static_cast<std::size_t>(colour)];
 }
 
 std::string json_of_box(const Domain& box) {

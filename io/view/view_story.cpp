@@ -9,6 +9,7 @@
 
 #include "core/base/input_message.hpp"
 #include "core/base/short_number.hpp"
+#include "core/scene/disk_group.hpp"
 #include "core/start/initial_state.hpp"
 
 namespace carom {
@@ -83,7 +84,7 @@ ViewStory view_story(const Scene& scene) {
   story.title = scene.title;
   story.box = scene.box;
   for (const DiskGroup& group : scene.groups) story.groups.push_back(group.name);
-  if (!scene.sources.empty()) story.groups.emplace_back("sources");
+  if (!scene.sources.empty()) story.groups.emplace_back(sources_name);
   for (const Source& source : scene.sources) {
     story.sources.push_back({source.side, source.region_low, source.region_high});
   }

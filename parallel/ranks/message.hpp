@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstring>
 #include <stdexcept>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -30,8 +31,12 @@ void put_all(Bytes& message, const std::vector<T>& values) {
   if (!values.empty()) std::memcpy(message.data() + end, values.data(), values.size() * sizeof(T));
 }
 
-// Reads a message that put and put_all have made; throws std::out_of_range where it is shorter. The message outlives
-// it.
+inline void put_text(Bytes& message, const std::string& text) {
+  put_all(message, std::vector<char>(text.begin(), text.end()));
+}
+
+// Reads a message that put, put_all and put_text have made; throws std::out_of_range where it is shorter. The message
+// outlives it.
 class MessageReader {
  public:
   explicit MessageReader(const Bytes& message) : message_(message) {}
@@ -53,6 +58,11 @@ class MessageReader {
     std::vector<T> values(count);
     if (count > 0) std::memcpy(values.data(), from, count * sizeof(T));
     return values;
+  }
+
+  std::string get_text() {
+    const std::vector<char> text = get_all<char>();
+    return {text.begin(), text.end()};
   }
 
   // Calls use(value) for each value that put_all has put there, without a copy of them all.

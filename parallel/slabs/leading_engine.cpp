@@ -22,17 +22,8 @@ namespace {
 // The text that rank 0 has, on all ranks.
 std::string shared_text(Ranks& ranks, const std::string& text) {
   Bytes first;
-  put_all(first, std::vector<char>(text.begin(), text.end()));
-  const std::vector<char> said = MessageReader(ranks.share(first)).get_all<char>();
-  return {said.begin(), said.end()};
-}
-
-void refuse_unknown(const Scene& scene) {
-  if (scene.run.method == Method::rollback) {
-    throw InputError(
-        "several ranks do not know the method rollback, whose frames are of the whole box: use one, or "
-        "--method exact");
-  }
+  put_text(first, text);
+  return MessageReader(ranks.share(first)).get_text();
 }
 
 std::unique_ptr<Engine> make_part(const Scene& scene, State part, const SlabStart& start, const Threads& threads,
@@ -294,7 +285,7 @@ class LeadingEngine final : public Engine {
 
 std::unique_ptr<Engine> RankLead::make_engine(const Scene& scene, State initial, const Threads& threads,
                                               const std::function<std::string(const State&)>& start) {
-  refuse_unknown(scene);
+  check_ranks_know(scene.run.method);
   const SlabStart slabs = slab_start(scene, initial.disks, ranks_.count());
   Disks none = no_disks_like(initial.disks);
   auto disks = std::make_unique<HeldDisks>(std::exchange(initial.disks, std::move(none)));
@@ -304,7 +295,7 @@ std::unique_ptr<Engine> RankLead::make_engine(const Scene& scene, State initial,
 std::unique_ptr<Engine> RankLead::make_engine(const Scene& scene, State initial, std::unique_ptr<DiskSource> disks,
                                               const Threads& threads,
                                               const std::function<std::string(const State&)>& start) {
-  refuse_unknown(scene);
+  check_ranks_know(scene.run.method);
   const SlabStart slabs = slab_start(scene, *disks, ranks_.count());
   return make_parts(scene, std::move(initial), std::move(disks), slabs, threads, start);
 }

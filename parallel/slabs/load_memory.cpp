@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "core/physics/contact_event.hpp"
+#include "core/physics/event_order.hpp"
 #include "parallel/ranks/message.hpp"
 
 namespace carom {
@@ -12,10 +13,6 @@ namespace {
 
 // Loads that go from a rank to others at a time: a megabyte.
 constexpr std::size_t loads_a_piece = std::size_t{1} << 16;
-
-bool in_order(const ContactLoad& a, const ContactLoad& b) {
-  return a.id1 != b.id1 ? a.id1 < b.id1 : a.id2 < b.id2;
-}
 
 bool same_contact(const ContactLoad& a, const ContactLoad& b) {
   return a.id1 == b.id1 && a.id2 == b.id2;
@@ -52,7 +49,7 @@ std::vector<ContactLoad> loads_of(const std::vector<ContactLoad>& loads, const s
 void merge_loads(const std::vector<ContactLoad>& more, std::vector<ContactLoad>& loads) {
   if (more.empty()) return;
   loads.insert(loads.end(), more.begin(), more.end());
-  std::sort(loads.begin(), loads.end(), in_order);
+  std::sort(loads.begin(), loads.end(), ids_order);
   loads.erase(std::unique(loads.begin(), loads.end(), same_contact), loads.end());
 }
 
@@ -71,7 +68,7 @@ std::vector<ContactLoad> collect_loads(Ranks& ranks, const std::vector<ContactLo
       all.insert(all.end(), more.begin(), more.end());
     }
   }
-  std::sort(all.begin(), all.end(), in_order);
+  std::sort(all.begin(), all.end(), ids_order);
   all.erase(std::unique(all.begin(), all.end(), same_contact), all.end());
   return all;
 }

@@ -74,10 +74,6 @@ class LoneEngine final : public Engine {
   std::vector<std::string> warnings_;
 };
 
-void put_text(Bytes& message, const std::string& text) {
-  put_all(message, std::vector<char>(text.begin(), text.end()));
-}
-
 }  // namespace
 
 void LoneRank::begin(DiskColumns columns, State& state) {
@@ -114,13 +110,10 @@ void LoneRank::step(State& state) {
   }
   const Bytes said = ranks_.share(message);
   MessageReader reader(said);
-  const auto text = reader.get_all<char>();
+  const std::string text = reader.get_text();
   take_progress(reader, state);
-  while (!reader.at_end()) {
-    const auto warning = reader.get_all<char>();
-    warnings_.emplace_back(warning.begin(), warning.end());
-  }
-  if (!text.empty()) throw PhysicsError(std::string(text.begin(), text.end()));
+  while (!reader.at_end()) warnings_.push_back(reader.get_text());
+  if (!text.empty()) throw PhysicsError(text);
 }
 
 void LoneRank::end(State& state, DiskColumns& columns, Count& disks) {

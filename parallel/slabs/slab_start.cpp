@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string>
 
+#include "core/base/check.hpp"
 #include "core/disks/cell_index.hpp"
 #include "core/disks/disk_columns.hpp"
 #include "core/step/source.hpp"
@@ -45,6 +46,14 @@ std::string why_alone(const Scene& scene, double largest, int ranks) {
 }
 
 }  // namespace
+
+void check_ranks_know(Method method) {
+  if (method == Method::rollback) {
+    throw InputError(
+        "several ranks do not know the method rollback, whose frames are of the whole box: use one, or "
+        "--method exact");
+  }
+}
 
 SlabStart slab_start(const Scene& scene, DiskColumns columns, double smallest, double largest, Count disks, int ranks) {
   SlabStart start;
@@ -105,7 +114,7 @@ Bytes message_of(const SlabStart& start) {
   put(message, start.largest_radius);
   put_all(message, start.counts);
   put(message, start.disks);
-  put_all(message, std::vector<char>(start.alone.begin(), start.alone.end()));
+  put_text(message, start.alone);
   return message;
 }
 
@@ -118,8 +127,7 @@ SlabStart slab_start_of(const Bytes& message) {
   start.largest_radius = reader.get<double>();
   start.counts = reader.get_all<std::size_t>();
   start.disks = reader.get<Count>();
-  const auto alone = reader.get_all<char>();
-  start.alone.assign(alone.begin(), alone.end());
+  start.alone = reader.get_text();
   return start;
 }
 

@@ -26,6 +26,10 @@ struct SlabStart {
   std::string alone;
 };
 
+// Throws InputError for a method that several ranks cannot run.
+void check_ranks_know(Method method);
+
+// Precondition: check_ranks_know(scene.run.method).
 SlabStart slab_start(const Scene& scene, const Disks& all, int ranks);
 
 // The same of disks that come some at a time; its slabs differ a little. Reads them once, or twice where radii differ.

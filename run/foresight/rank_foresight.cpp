@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/base/check.hpp"
 #include "core/disks/disk_columns.hpp"
 #include "parallel/slabs/random_on_slabs.hpp"
 #include "parallel/slabs/slab_orders.hpp"
@@ -58,11 +57,7 @@ constexpr double traffic_trial = 0.3;
 }  // namespace
 
 RankForesight foresee_ranks(const Scene& scene, const State& start, int ranks) {
-  if (scene.run.method == Method::rollback) {
-    throw InputError(
-        "several ranks do not know the method rollback, whose frames are of the whole box: use one, or "
-        "--method exact");
-  }
+  check_ranks_know(scene.run.method);
   const auto all = static_cast<double>(start.disks.size());
   RankForesight f;
   f.ranks = ranks;

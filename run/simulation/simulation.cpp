@@ -11,6 +11,7 @@
 #include "core/base/float_environment.hpp"
 #include "core/base/input_message.hpp"
 #include "core/disks/disk_columns.hpp"
+#include "core/disks/fastest_speed.hpp"
 #include "core/disks/state_hash.hpp"
 #include "core/physics/boundary.hpp"
 #include "core/physics/obstacle_contact.hpp"

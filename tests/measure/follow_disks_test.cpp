@@ -8,6 +8,7 @@
 #include <cmath>
 #include <memory>
 
+#include "core/disks/fastest_speed.hpp"
 #include "core/disks/state.hpp"
 #include "core/scene/scene.hpp"
 #include "parallel/simulation.hpp"
@@ -86,7 +87,7 @@ TEST(FollowDisks, TheLargestSpeedWithinAWindowIsThatOfItsPaths) {
   while (reference->state().time < scene.run.t_end) {
     reference->step();
     parallel->step();
-    const double end = largest_speed(reference->state().disks);
+    const double end = fastest_speed(reference->state().disks);
     EXPECT_EQ(std::max(end, reference->fastest_within()), std::max(end, parallel->fastest_within()));
     most = std::max(most, reference->fastest_within());
     at_ends = std::max(at_ends, end);
@@ -104,7 +105,7 @@ TEST(LongFollowDisks, TheLargestSpeedWithinAWindowIsThatOfAllParts) {
   const auto one = make_parallel_engine(scene, start, {1}), two = make_parallel_engine(scene, start, {2});
   while (reference->state().time < scene.run.t_end) {
     for (Engine* const engine : {reference.get(), one.get(), two.get()}) engine->step();
-    const double end = largest_speed(reference->state().disks);
+    const double end = fastest_speed(reference->state().disks);
     const double within = std::max(end, reference->fastest_within());
     EXPECT_EQ(std::max(end, one->fastest_within()), within);
     EXPECT_EQ(std::max(end, two->fastest_within()), within);

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/base/check.hpp"
+#include "core/disks/fastest_speed.hpp"
 #include "core/disks/state_hash.hpp"
 #include "core/load/scene_file.hpp"
 #include "core/measure/energy_gain.hpp"
