@@ -102,6 +102,7 @@ class PySimulation {
 
   const Simulation& look() const {
     check_at_rest();
+    simulation_.check_not_lost();
     return simulation_;
   }
 

@@ -3,7 +3,8 @@
  * A world is a handle. Only one thread at a time may call functions of a world; worlds share nothing. No call throws,
  * prints or touches a signal. Every call that can fail returns a carom_status, and carom_error() of the world has a
  * line that says what was wrong. A failed call leaves the world as it was, but for one that steps, which leaves it at
- * the end of the last step made. Any call may return CAROM_FAILED (no memory) and CAROM_INPUT (a null pointer, NaN);
+ * the end of the last step made; and where memory runs out within a step or a change, the state is lost: from then on
+ * numbers are 0 and all else CAROM_FAILED, until carom_load_memory takes up a saved one. Any call may return CAROM_FAILED (no memory) and CAROM_INPUT (a null pointer, NaN);
  * below stands what else it may return. Lengths, times and masses are in the scene's own units. The bits are those of
  * `carom run` of the same scene, whatever the program's compiler flags, rounding mode and threads. docs/library.md
  * shows the use. */
@@ -145,7 +146,8 @@ CAROM_API uint64_t carom_emitted(const carom_world* world); /* by sources */
 CAROM_API uint64_t carom_hash(const carom_world* world);    /* state_hash of carom run */
 CAROM_API double carom_width(const carom_world* world);     /* of the box; length */
 CAROM_API double carom_height(const carom_world* world);    /* likewise */
-/* Energies, mass length^2 / time^2: the sum of m v^2 / 2, without spins, and of m (gravity y - gravity_x x). */
+/* Energies, mass length^2 / time^2: the sum of m v^2 / 2, without spins, and of m (gravity y - gravity_x x). NaN where
+ * there is no memory for the order in which they are summed; carom_error() then says so. */
 CAROM_API double carom_kinetic_energy(const carom_world* world);
 CAROM_API double carom_potential_energy(const carom_world* world);
 

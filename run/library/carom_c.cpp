@@ -207,7 +207,7 @@ carom_status carom_save_memory(const carom_world* world, void* bytes, size_t roo
 }
 
 carom_status carom_load_memory(carom_world* world, const void* bytes, size_t size) {
-  return with(world, [&](Simulation& s) {
+  return with_any(world, [&](Simulation& s) {
     check_pointer(bytes, "bytes");
     s.load({static_cast<const char*>(bytes), size});
     return CAROM_OK;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -32,9 +33,16 @@ carom_status fill(const carom_world* world, T* array, std::size_t room, Put&& pu
   });
 }
 
-Energy energy_in(const Simulation& s) {
-  const FloatEnvironment environment;
-  return energy_of(s.state().disks, s.scene().physics.gravity);
+// One of the energies; of a null world 0. NaN where memory for the order of its terms is missing.
+double energy_in(const carom_world* world, double Energy::*which) {
+  if (world == nullptr || !world->simulation || world->simulation->lost()) return 0.0;
+  double energy = std::numeric_limits<double>::quiet_NaN();
+  with(world, [&](const Simulation& s) {
+    const FloatEnvironment environment;
+    energy = energy_of(s.state().disks, s.scene().physics.gravity).*which;
+    return CAROM_OK;
+  });
+  return energy;
 }
 
 }  // namespace
@@ -90,11 +98,11 @@ double carom_height(const carom_world* world) {
 }
 
 double carom_kinetic_energy(const carom_world* world) {
-  return value_of(world, [](const Simulation& s) { return energy_in(s).kinetic; });
+  return energy_in(world, &Energy::kinetic);
 }
 
 double carom_potential_energy(const carom_world* world) {
-  return value_of(world, [](const Simulation& s) { return energy_in(s).potential; });
+  return energy_in(world, &Energy::potential);
 }
 
 carom_status carom_disks(const carom_world* world, carom_disk* disks, size_t room) {

@@ -63,19 +63,28 @@ carom_status guarded(const carom_world* world, Work&& work) {
   }
 }
 
-// work(simulation), on a world that is there.
+// work(simulation), on a world that is there, lost or not.
 template <class World, class Work>
-carom_status with(World* world, Work&& work) {
+carom_status with_any(World* world, Work&& work) {
   if (world == nullptr) return CAROM_INPUT;
   if (!world->simulation) return fail(world, never_made);
   return guarded(world, [&] { return work(*world->simulation); });
 }
 
-// value(simulation) of a world that is there, else 0.
+// Likewise, but not on one whose state is lost.
+template <class World, class Work>
+carom_status with(World* world, Work&& work) {
+  return with_any(world, [&](auto& simulation) {
+    simulation.check_not_lost();
+    return work(simulation);
+  });
+}
+
+// value(simulation) of a world that is there and has a state, else 0. Precondition: value() does not throw.
 template <class Value>
 auto value_of(const carom_world* world, Value&& value) noexcept {
   using Result = decltype(value(*world->simulation));
-  return world != nullptr && world->simulation ? value(*world->simulation) : Result{};
+  return world != nullptr && world->simulation && !world->simulation->lost() ? value(*world->simulation) : Result{};
 }
 
 inline void check_pointer(const void* pointer, const char* name) {

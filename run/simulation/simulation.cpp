@@ -109,6 +109,24 @@ Simulation Simulation::from_bytes(std::string_view bytes, EngineChoice engine) {
   return {checkpoint_from_bytes(bytes, "saved state"), "saved state", std::move(engine)};
 }
 
+void Simulation::check_not_lost() const {
+  if (lost_) throw RunError("memory has run out within a step or a change, and the state is lost: load a saved one");
+}
+
+// What the method itself throws leaves the engine as it was; all else may come in the middle of its work.
+template <class Work>
+auto Simulation::or_lose(Work&& work) {
+  try {
+    return work();
+  } catch (const PhysicsError&) {
+    throw;
+  } catch (...) {
+    lost_ = true;
+    stepped_ = false;
+    throw;
+  }
+}
+
 Engine& Simulation::engine() {
   if (edited_) {
     engine_ = make_engine(choice_, scene_, *edited_);
@@ -120,18 +138,19 @@ Engine& Simulation::engine() {
 // What comes before the first step belongs to the start; the energy that a later change brings is put into the run.
 void Simulation::change(Edit edit) {
   const FloatEnvironment environment;
+  check_not_lost();
   order_known_ = stepped_ = false;
   if (state().counters.steps == 0) {
     start_changed_ = true;
   } else {
     edit.energy = energy_brought(edit, state().disks, scene_.physics.gravity);
   }
-  if (!edited_ && engine_->edit(edit)) return;
+  if (!edited_ && or_lose([&] { return engine_->edit(edit); })) return;
   if (!edited_) {
     keep_warnings();
     edited_ = engine_->state();
   }
-  apply(edit, *edited_);
+  or_lose([&] { apply(edit, *edited_); });
 }
 
 // Before the engine is made anew. A program that goes back again and again, and never asks, keeps so many at most.
@@ -146,12 +165,13 @@ void Simulation::keep_warnings() {
 // A step that fails leaves no contacts. What was changed since the step before is taken up here, as a program may look
 // at the disks, change them or take up another state each time that run_until asks it.
 void Simulation::make_step() {
+  check_not_lost();
   Engine& steps = engine();
   start_ = start();
   start_changed_ = false;
   order_known_ = stepped_ = false;
   step_start_ = time();
-  steps.step();
+  or_lose([&] { steps.step(); });
   stepped_ = true;
 }
 
@@ -167,6 +187,7 @@ void Simulation::run_until(double t, const std::function<bool()>& go_on) {
 }
 
 const std::vector<std::size_t>& Simulation::order() const {
+  check_not_lost();
   if (!order_known_) order_ = by_id(state().disks);
   order_known_ = true;
   return order_;
@@ -180,6 +201,7 @@ Disks Simulation::disks() const {
 
 double Simulation::disks_at(double t, Disks& out) const {
   const FloatEnvironment environment;
+  check_not_lost();
   if (!(t <= time())) fail_input("time", fmt::format("is {}", t), fmt::format("expected {} or less", time()));
   if (t < step_start_) {
     fail_input("time", fmt::format("is {}, before the last step", t),
@@ -211,6 +233,7 @@ std::uint64_t Simulation::hash() const {
 
 Summary Simulation::summary() const {
   const FloatEnvironment environment;
+  check_not_lost();
   // After a change by an engine for this alone: the next step's would move the disks that a caller looks at.
   const std::unique_ptr<Engine> looks = edited_ ? make_engine(choice_, scene_, *edited_) : nullptr;
   Summary s = summarize(start(), looks ? *looks : *engine_, scene_, choice_);
@@ -222,11 +245,13 @@ Summary Simulation::summary() const {
 }
 
 std::vector<std::string> Simulation::take_warnings() {
-  keep_warnings();
+  if (!lost_) keep_warnings();
   return std::exchange(warnings_, {});
 }
 
 RunRecord Simulation::record() const {
+  const FloatEnvironment environment;  // start() may sum energies
+  check_not_lost();
   RunRecord record;
   record.version = CAROM_VERSION;
   record.scene_file = scene_.file;
@@ -261,7 +286,8 @@ void Simulation::load(std::string_view bytes) {
   if (checkpoint.state.sources.size() != scene_.sources.size()) scene_in(checkpoint, "saved state");
   start_ = checkpoint.record.start;
   start_changed_ = false;
-  keep_warnings();
+  if (!lost_) keep_warnings();
+  lost_ = false;
   edited_ = std::move(checkpoint.state);
   step_start_ = time();
   order_known_ = stepped_ = false;
@@ -288,6 +314,7 @@ void Simulation::check_newcomer(const Disk& disk) const {
 
 std::optional<DiskId> Simulation::add(Disk disk) {
   const FloatEnvironment environment;
+  check_not_lost();
   check_newcomer(disk);
   const Disks& present = state().disks;
   const Domain box = box_at(scene_.box, state().time);
@@ -317,6 +344,7 @@ std::optional<DiskId> Simulation::add(Disk disk) {
 }
 
 std::optional<std::size_t> Simulation::find(DiskId id) const {
+  check_not_lost();
   const std::vector<DiskId>& ids = state().disks.id;
   const auto at = std::find(ids.begin(), ids.end(), id);
   if (at == ids.end()) return std::nullopt;
@@ -350,6 +378,7 @@ VisitNear Simulation::visit_near() const {
 }
 
 QueryScene Simulation::query_scene() const {
+  check_not_lost();
   if (scene_.box.shear.acts()) fail_input("box.shear_rate", "moves the images", "expected queries of other scenes");
   if (scene_.box.inner_walls_move && walls_time_ != state().time) {
     walls_ = cells_of(scene_, state(), true);

@@ -27,7 +27,7 @@ namespace carom {
 // Gives the bits of `carom run` of the same scene, whatever the host program's rounding mode. All calls are of one
 // thread at a time; different simulations share nothing. Writes no files but where told to, prints nothing, and leaves
 // signals alone. What a call throws leaves the simulation as it was before, but for step and run_until, which leave it
-// at the end of the last step that was made.
+// at the end of the last step that was made; and where memory runs out within a step or a change the state is lost().
 class Simulation {
  public:
   // A scene as load_scene reads it from a file and parse_scene from text. watch is told how placing the disks at
@@ -48,6 +48,11 @@ class Simulation {
   // for t, so that bits do not depend on where a program looks: disks_at(t) has the disks at t itself. go_on is asked
   // before each step and may be empty; it may look at the simulation and change it.
   void run_until(double t, const std::function<bool()>& go_on = {});
+
+  // Has memory run out where the state was half changed? Then it is none: all that needs it throws RunError, and what
+  // only shows a part of it is without meaning, until load() has taken up another.
+  bool lost() const { return lost_; }
+  void check_not_lost() const;
 
   double time() const { return state().time; }  // end of the last step
   bool done() const { return !(state().time < scene_.run.t_end); }
@@ -109,6 +114,8 @@ class Simulation {
   RunRecord record() const;
   RunStart start() const { return start_changed_ ? run_start(state(), scene_) : start_; }
   Engine& engine();
+  template <class Work>
+  auto or_lose(Work&& work);
   void change(Edit edit);
   void keep_warnings();
   void make_step();
@@ -126,8 +133,9 @@ class Simulation {
   mutable std::unique_ptr<const ObstacleCells> walls_;
   mutable double walls_time_ = -1.0;
   std::unique_ptr<Engine> engine_;
-  double step_start_ = 0.0;      // time of the state before the last step
-  bool stepped_ = false;         // and nothing was changed or loaded since
+  double step_start_ = 0.0;  // time of the state before the last step
+  bool stepped_ = false;     // and nothing was changed or loaded since
+  bool lost_ = false;
   std::optional<State> edited_;  // of which the engine is made anew before the next step
   std::vector<std::string> warnings_;
   mutable std::vector<std::size_t> order_;
