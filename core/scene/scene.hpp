@@ -223,8 +223,7 @@ inline constexpr std::size_t quantities = 12;
 struct DistancePlan {
   double r_max = 0.0;  // length
   Count bins = 0;
-  double wall_margin =
-      0.0;  // least distance from a side that is not periodic, of disks whose surroundings count; length
+  double wall_margin = 0.0;  // least distance from walls and sinks of disks whose surroundings count; length
 };
 
 struct NamedIds {

@@ -1,9 +1,8 @@
 // What a rank gives to the others: counted, and how long it took. Nothing that is computed depends on it.
 #pragma once
 
-#include <chrono>
-
 #include "core/base/types.hpp"
+#include "core/base/wall_clock.hpp"
 
 namespace carom {
 
@@ -42,15 +41,14 @@ inline Traffic traffic_since(const Traffic& before, const Traffic& now) {
 // Adds the time from construction to destruction.
 class TrafficTimer {
  public:
-  explicit TrafficTimer(double& seconds) : seconds_(seconds), start_(Clock::now()) {}
+  explicit TrafficTimer(double& seconds) : seconds_(seconds) {}
   TrafficTimer(const TrafficTimer&) = delete;
   TrafficTimer& operator=(const TrafficTimer&) = delete;
-  ~TrafficTimer() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+  ~TrafficTimer() { seconds_ += seconds_since(start_); }
 
  private:
-  using Clock = std::chrono::steady_clock;
   double& seconds_;
-  Clock::time_point start_;
+  WallClock::time_point start_ = WallClock::now();
 };
 
 }  // namespace carom
