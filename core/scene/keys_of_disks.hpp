@@ -111,6 +111,15 @@ inline constexpr SceneKey keys[] = {
     {"frame", "time", number, Dimension::time, "the last",
      "The frame nearest to this time, which lies between those of the first and the last frame.",
      R"(positions = { frame = "out/melt", time = 2.5 })"},
+    {"frame", "group", text, none, "all disks",
+     "The disks of one group alone, by the name that it has in the scene.toml beside the trajectory; `sources`: those "
+     "of "
+     "all sources.",
+     R"(positions = { frame = "out/melt", group = "tracer" })"},
+    {"frame", "scale", positive, none, "as they were",
+     "Only of `radius`: what the radii are multiplied by. Frames of time stepping may hold disks that overlap a "
+     "little, which a start does not allow: a little less than 1 - `max_overlap` of that run's summary makes room.",
+     R"(radius = { frame = "out/pile", scale = 0.999 })"},
 
     {"growth", "slowness", positive, none, "1",
      "How much further than usual disks move between two steps of growth: larger is slower, and a little denser.",

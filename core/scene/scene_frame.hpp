@@ -16,6 +16,7 @@ struct FrameAsked {
   std::optional<Count> index;  // counted from 1
   std::optional<double> time;  // simulated; the frame nearest to it; with neither the last frame
   bool velocities = false;     // are its velocities wanted, and what run they are of?
+  std::string group = {};      // the name that the disks wanted had in the run; empty: all disks
 };
 
 struct SceneFrame {

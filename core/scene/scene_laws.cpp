@@ -56,6 +56,15 @@ std::vector<Vec2> read_csv_law(const TableReader& law, CsvPairs pairs, std::stri
   return parse_csv_pairs(text, file, key, pairs);
 }
 
+// What the radii of a frame are multiplied by: disks of time stepping overlap by a little.
+double scale_of_radii(const TableReader& law, std::string_view name) {
+  const std::optional<double> scale = law.number("scale");
+  if (scale && name != "radius") {
+    law.fail("scale", fmt::format("is given for {}", name), "expected it for radius alone");
+  }
+  return scale.value_or(1.0);
+}
+
 // { frame = "DIR or trajectory" }, with index = n (from 1) or time = t; the last frame without. file gets what messages
 // call it. Relative paths start where the scene lies, as those of CSV files do.
 SceneFrame read_frame(const TableReader& owner, std::string_view name, const toml::table& table, std::string& file) {
@@ -70,9 +79,16 @@ SceneFrame read_frame(const TableReader& owner, std::string_view name, const tom
   asked.time = law.number("time");
   asked.velocities = name == "velocities";
   if (asked.index && asked.time) law.fail("time", "given beside index", expected);
+  if (const auto group = law.text("group")) {
+    asked.group = *group;
+    if (asked.group.empty()) law.fail("group", "is empty", "expected the name of a group of that run");
+  }
   if (!law.origin().frames) law.fail("frame", "cannot be read here", "expected positions of another kind");
+  const double scale = scale_of_radii(law, name);
   try {
-    return law.origin().frames(asked);
+    SceneFrame frame = law.origin().frames(asked);
+    for (double& radius : frame.radius) radius *= scale;
+    return frame;
   } catch (const InputError& error) {
     fail_input(law.origin().where(law.key("frame")), error.what());
   }

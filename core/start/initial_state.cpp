@@ -126,10 +126,14 @@ void place_on_lattice(const Scene& scene, std::size_t group, DiskId first_id, Di
   const double contact = disks.radius_of(i) + disks.radius_of(j);
   const double overlap = contact - std::sqrt(distance2);
   const std::size_t later = std::max(i, j);
-  fail_input(place_in_group(scene, group_of(scene, static_cast<DiskId>(later)), "positions"),
+  const std::size_t group = group_of(scene, static_cast<DiskId>(later));
+  const bool radii_of_frame = !scene.groups[group].radius.file.empty();
+  fail_input(place_in_group(scene, group, "positions"),
              fmt::format("disks {} and {} overlap by {:.6g} ({:.3g} % of r1 + r2)", std::min(i, j), later, overlap,
                          100.0 * overlap / contact),
-             "expected centres r1 + r2 or more apart");
+             radii_of_frame
+                 ? "expected centres r1 + r2 or more apart; \"scale\" beside the frame of the radii makes room"
+                 : "expected centres r1 + r2 or more apart");
 }
 
 // Puts the disks that have their places into the grid, large ones first, and checks them against each other. Obstacles

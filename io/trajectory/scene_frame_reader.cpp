@@ -10,6 +10,7 @@
 #include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
 #include "core/load/scene_file.hpp"
+#include "core/scene/disk_group.hpp"
 #include "core/scene/drawn_velocities.hpp"
 #include "io/files/output_folder.hpp"
 #include "io/trajectory/trajectory_reader.hpp"
@@ -60,6 +61,36 @@ std::optional<double> shear_rate_of(const std::optional<Scene>& scene, const Tra
   return scene ? std::optional(scene->box.shear.rate) : std::nullopt;
 }
 
+// Which disks of the frame are wanted: all, or those of the group that its run gave this name.
+std::vector<bool> members_of(const std::string& path, const TrajectoryFrame& frame, const std::optional<Scene>& scene,
+                             const std::string& name) {
+  std::vector<bool> members(frame.disks.size(), true);
+  if (name.empty()) return members;
+  const std::string unknown = fmt::format("tells of no group \"{}\"", name);
+  if (!scene) fail_input(path, unknown, "expected the folder of a run, with its scene.toml");
+  std::string names;
+  for (const NamedGroup& group : named_groups(*scene)) {
+    names += (names.empty() ? "" : ", ") + group.name;
+    if (group.name != name) continue;
+    for (std::size_t i = 0; i < members.size(); ++i) members[i] = group.ids.holds(frame.disks.id[i]);
+    return members;
+  }
+  fail_input(path, unknown, names.empty() ? "expected a run whose groups have names" : "expected one of " + names);
+}
+
+SceneFrame disks_of(const Disks& d, const std::vector<bool>& members) {
+  SceneFrame result;
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    if (!members[i]) continue;
+    result.positions.push_back({d.x[i], d.y[i]});
+    result.velocities.push_back({d.vx[i], d.vy[i]});
+    result.radius.push_back(d.radius_of(i));
+    result.mass.push_back(d.mass_of(i));
+    if (!d.spin.empty()) result.spin.push_back(d.spin[i]);
+  }
+  return result;
+}
+
 }  // namespace
 
 SceneFrame read_scene_frame(const FrameAsked& asked) {
@@ -79,21 +110,14 @@ SceneFrame read_scene_frame(const FrameAsked& asked) {
     fail_input(path, fmt::format("there is no frame {}", *asked.index), fmt::format("expected 1 to {}", frames));
   }
   if (asked.time) check_time(path, *asked.time, first, last);
-  SceneFrame result;
+  std::optional<Scene> scene;
+  if (asked.velocities || !asked.group.empty()) scene = scene_of(path, chosen);
+  SceneFrame result = disks_of(chosen.disks, members_of(path, chosen, scene, asked.group));
   if (asked.velocities) {
-    const std::optional<Scene> scene = scene_of(path, chosen);
     result.shear_rate = shear_rate_of(scene, chosen);
     result.brownian = scene && velocities_are_drawn(*scene);
     result.height = chosen.box.height;
   }
-  const Disks& d = chosen.disks;
-  for (std::size_t i = 0; i < d.size(); ++i) {
-    result.positions.push_back({d.x[i], d.y[i]});
-    result.velocities.push_back({d.vx[i], d.vy[i]});
-  }
-  result.radius = std::move(chosen.disks.radius);
-  result.mass = std::move(chosen.disks.mass);
-  result.spin = std::move(chosen.disks.spin);
   return result;
 }
 

@@ -88,6 +88,33 @@ TEST_F(SceneFrames, OfARunThatIsNotFinishedItsTrajectoryIsToBeNamed) {
   EXPECT_EQ(x_of({moved, {}, {}}), 2.0);
 }
 
+// By the name that the scene beside it gives to a group, and by ids, which run on from group to group: a file that
+// shows one group alone does not number them.
+TEST_F(SceneFrames, ShowsOneGroupAlone) {
+  const auto radii = [this](const char* group) {
+    return read_scene_frame({folder_.path().string(), {}, {}, false, group}).radius;
+  };
+  const auto message = [this](const char* group) { return complaint({folder_.path().string(), {}, {}, false, group}); };
+  const std::string file = folder_.write(
+      "trajectory.xyz",
+      "3\nLattice=\"10 0 0 0 8 0 0 0 1\" pbc=\"F F F\" Properties=pos:R:2:velo:R:2:radius:R:1:mass:R:1:id:I:1 Time=0\n"
+      "1 2 0 0 0.25 1 0\n3 2 0 0 0.5 1 2\n5 2 0 0 0.75 1 3\n");
+  EXPECT_EQ(message("a"), file + ": tells of no group \"a\"; expected the folder of a run, with its scene.toml");
+  const auto block = [](const char* name, int x, const char* more) {
+    return fmt::format("[[disks]]\nname = \"{}\"\ncount = 1\npositions = [[{}, 2]]\nradius = 0.25\n{}", name, x, more);
+  };
+  folder_.write("scene.toml",
+                "[box]\nwidth = 10\nheight = 8\n" + block("a", 1, "mass = 1\n") + block("pegs", 3, "fixed = true\n") +
+                    block("b", 5, "mass = 1\n") +
+                    "[[sources]]\nside = \"left\"\nrate = 1\nradius = 0.25\nmass = 1\n[run]\nt_end = 1\n");
+  EXPECT_THAT(radii("a"), ElementsAre(0.25));
+  EXPECT_THAT(radii("b"), ElementsAre(0.5));
+  EXPECT_THAT(radii("sources"), ElementsAre(0.75));
+  EXPECT_THAT(radii(""), ElementsAre(0.25, 0.5, 0.75));
+  EXPECT_EQ(message("c"), file + ": tells of no group \"c\"; expected one of a, b, sources");
+  EXPECT_EQ(message("pegs"), file + ": tells of no group \"pegs\"; expected one of a, b, sources");
+}
+
 // A run with a shear has the flow in what it writes: by the scene beside it, if that is its own. Such a run counts no
 // rounds, so that a frame that has them is of none.
 TEST_F(SceneFrames, TellsTheShearOfItsRun) {

@@ -73,6 +73,26 @@ TEST_F(LongFrameStart, WhatIsNoFrameIsRefused) {
   }
 }
 
+// Disks of time stepping may overlap by a little. Smaller ones have room.
+TEST_F(LongFrameStart, SmallerDisksOfAPileHaveRoom) {
+  write(
+      "pile.xyz",
+      "2\nLattice=\"10 0 0 0 8 0 0 0 1\" pbc=\"F F F\" Properties=pos:R:2:velo:R:2:radius:R:1:mass:R:1:id:I:1 Time=0\n"
+      "2 2 0 0 0.5 1 0\n2.9999 2 0 0 0.5 1 1\n");
+  const auto check = [this](std::string_view radius) {
+    write("on.toml", fmt::format("[box]\nwidth = 10\nheight = 8\n[[disks]]\ncount = 2\npositions = {{ frame = "
+                                 "\"pile.xyz\" }}\nradius = {}\nmass = 1\n[run]\nt_end = 1\n",
+                                 radius));
+    return carom("check on.toml");
+  };
+  const test::Outcome refused = check("{ frame = \"pile.xyz\" }");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("disks 0 and 1 overlap by 0.0001 (0.01 % of r1 + r2); expected centres r1 + r2 or "
+                                     "more apart; \"scale\" beside the frame of the radii makes room"));
+  EXPECT_THAT(check("0.5").err, testing::EndsWith("expected centres r1 + r2 or more apart\n"));
+  EXPECT_EQ(check("{ frame = \"pile.xyz\", scale = 0.9998 }").status, 0);
+}
+
 // They are u / dt of a step, and grow as dt shrinks: a gas at a temperature of hundreds.
 TEST_F(LongFrameStart, DisksDoNotFlyOnAsBrownianDisksHop) {
   write("brownian.toml", test::replaced(test::replaced(with_frames, "restitution = 0.9", "diffusion = 0.5"),

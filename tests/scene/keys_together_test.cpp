@@ -223,6 +223,27 @@ TEST(KeysTogether, FramesGiveVelocitiesWithoutTheirFlow) {
   EXPECT_EQ(scene.groups[0].velocities.list, (std::vector<Vec2>{{1.5, 0.5}, {1.75, 0.0}, {-0.5, 0.0}}));
 }
 
+// Disks of a frame of time stepping, which overlap by a little, start smaller; nothing but radii is scaled.
+TEST(KeysTogether, RadiiOfAFrameAreScaled) {
+  const FrameReader frames = [](const FrameAsked&) -> SceneFrame {
+    return {{{2.0, 2.0}, {5.0, 5.0}, {8.0, 2.0}}, {}, {0.5, 1.0, 2.0}, {1.0, 1.0, 4.0}};
+  };
+  const auto scene = [&](std::string_view radius, std::string_view mass) {
+    const std::string text = replaced(scene_with("", "", "", ""), "radius = 1.0", fmt::format("radius = {}", radius));
+    return parse_scene(replaced(text, "mass = 2.0", fmt::format("mass = {}", mass)), "gas.toml", "", {}, frames);
+  };
+  const std::string half = "{ frame = \"out\", scale = 0.5 }";
+  const DiskGroup group = scene(half, "{ frame = \"out\" }").groups[0];
+  EXPECT_EQ(group.radius.values, (std::vector{0.25, 0.5, 1.0}));
+  EXPECT_EQ(group.mass.values, (std::vector{1.0, 1.0, 4.0}));
+  try {
+    scene("1.0", half);
+    FAIL() << "was read";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("mass.scale: is given for mass; expected it for radius alone"));
+  }
+}
+
 // What is written out is the scene that was read: a run is resumed from it.
 TEST(KeysTogether, AResolvedSceneKeepsWhatTheyAre) {
   const Scene scene = scene_from(
