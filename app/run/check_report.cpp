@@ -35,8 +35,29 @@ std::string sides_text(const Domain& box) {
   return text;
 }
 
+// " at speeds up to 2, accelerations up to 8, 0.8 of gravity's": below 1 of it, what lies on a wall that goes up and
+// down stays there.
+std::string motion_text(double speed, double acceleration, double gravity) {
+  std::string text = fmt::format(" at speeds up to {:.3g}", speed);
+  if (acceleration == 0.0) return text;
+  text += fmt::format(", accelerations up to {:.3g}", acceleration);
+  return gravity > 0.0 ? text + fmt::format(", {:.3g} of gravity's", acceleration / gravity) : text;
+}
+
+// All inner walls that move; empty: none.
+std::string inner_motion_text(const Scene& scene) {
+  double speed = 0.0;
+  double acceleration = 0.0;
+  for (const InnerWall& wall : scene.walls) {
+    speed = std::max(speed, wall.motion.largest_speed());
+    acceleration = std::max(acceleration, wall.motion.largest_acceleration());
+  }
+  if (!scene.box.inner_walls_move) return "";
+  return ", inner walls move" + motion_text(speed, acceleration, scene.physics.gravity.size);
+}
+
 // Restitution at walls: one for all, or each with the name of its side.
-std::string walls_text(const Domain& box) {
+std::string walls_text(const Domain& box, const Gravity& gravity) {
   std::string text;
   bool equal = true;
   std::optional<double> first;
@@ -48,7 +69,11 @@ std::string walls_text(const Domain& box) {
       text += fmt::format(", the {} wall at temperature {:g}", name, box.temperature(side));
       continue;
     }
-    if (box.moves(side)) text += fmt::format(", the {} wall moves", name);
+    if (box.moves(side)) {
+      const SideMotion& motion = box.motions[static_cast<std::size_t>(side)];
+      text += fmt::format(", the {} wall moves{}", name,
+                          motion_text(motion.largest_speed(), motion.largest_acceleration(), gravity.size));
+    }
     equal = equal && !box.moves(side) && box.restitution(side) == first.value_or(box.restitution(side));
     if (!first) first = box.restitution(side);
     text += fmt::format(", {:g} at the {} wall", box.restitution(side), name);
@@ -96,9 +121,9 @@ std::string physics_text(const Scene& scene) {
   std::string text = gravity_text(p.gravity);
   const bool elastic = p.restitution == 1.0 && !p.law.dissipates();
   text += !elastic ? fmt::format("restitution {}", restitutions_text(scene)) : "elastic collisions";
-  const std::string walls = walls_text(scene.box);
+  const std::string walls = walls_text(scene.box, p.gravity);
   text += elastic && walls == ", 1 at walls" ? ", at walls too" : walls;
-  if (scene.box.inner_walls_move) text += ", inner walls move";
+  text += inner_motion_text(scene);
   text += surfaces_text(p.surfaces);
   if (p.diffusion > 0.0) {
     text += fmt::format("; Brownian motion, D = {:g}{}", p.diffusion, p.accumulate ? ", accumulating velocity" : "");

@@ -97,6 +97,10 @@ struct SideMotion {
     if (kind == Kind::sine) return std::abs(amplitude) * angular_frequency();
     return kind == Kind::parabolas ? 4.0 * std::abs(amplitude) / half() : std::abs(speed);
   }
+  double largest_acceleration() const {
+    if (kind == Kind::sine) return std::abs(amplitude) * angular_frequency() * angular_frequency();
+    return kind == Kind::parabolas ? 8.0 * std::abs(amplitude) / (half() * half()) : 0.0;
+  }
 
   // The first time until t_end at which the side is further in than `limit` (length), to rounding; HUGE_VAL: none.
   double first_time_beyond(double limit, double t_end) const {

@@ -31,6 +31,7 @@ struct WallMotion {
   bool moves() const { return pace.moves(); }
   bool is_sine() const { return pace.kind == SideMotion::Kind::sine; }
   double largest_speed() const { return size() * pace.largest_speed(); }
+  double largest_acceleration() const { return size() * pace.largest_acceleration(); }
   double size() const { return std::sqrt(along.x * along.x + along.y * along.y); }
 
   // Of a wall whose velocity, or amplitude, is 1: at the clock's time, and so much later (time; < 0 within a step

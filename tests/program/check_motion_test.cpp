@@ -1,0 +1,46 @@
+// carom check says how fast walls move, and how their acceleration compares with gravity: what lies on a floor that
+// vibrates with less than gravity's never leaves it.
+#include <fmt/format.h>
+
+#include "tests/support/command_support.hpp"
+
+namespace carom {
+namespace {
+
+using ::testing::HasSubstr;
+
+class CheckOfMotion : public test::CommandTest {
+ protected:
+  std::string report(const std::string& box, const std::string& more) const {
+    write("moves.toml", "[box]\nwidth = 10.0\nheight = 10.0\n" + box +
+                            "[[disks]]\ncount = 1\npositions = [[5, 5]]\nradius = 0.5\nmass = 1\n" + more +
+                            "[run]\nmethod = \"pairwise\"\ndt = 0.01\nt_end = 1.0\n");
+    const test::Outcome o = carom("check moves.toml");
+    EXPECT_EQ(o.status, 0) << o.err;
+    return o.out;
+  }
+};
+
+// Pieces of a parabola of height A over half a period h: 4 A / h at their ends, 8 A / h^2 all the time.
+TEST_F(CheckOfMotion, AFloorThatVibratesIsHeldAgainstGravity) {
+  const std::string floor = "bottom = { motion = { vibrate = [0.0, 0.5], period = 2.0 } }\n";
+  EXPECT_THAT(report(floor + "[physics]\ngravity = 5.0\n", ""),
+              HasSubstr("the bottom wall moves at speeds up to 2, accelerations up to 4, 0.8 of gravity's"));
+  EXPECT_THAT(report(floor, ""), HasSubstr("the bottom wall moves at speeds up to 2, accelerations up to 4, 1 at"));
+}
+
+// A sine: A w and A w^2, w = 2 pi / period.
+TEST_F(CheckOfMotion, OfInnerWallsTheLargestCounts) {
+  const std::string walls =
+      "[[walls]]\nfrom = [1, 2]\nto = [9, 2]\nmotion = { vibrate = [0.3, 0.4], period = 2.0, shape = \"sine\" }\n"
+      "[[walls]]\nfrom = [1, 8]\nto = [2, 8]\nmotion = { velocity = [0.5, 0.0] }\n";
+  EXPECT_THAT(report("", walls), HasSubstr("inner walls move at speeds up to 1.57, accelerations up to 4.93"));
+}
+
+TEST_F(CheckOfMotion, ASteadySideHasASpeedAlone) {
+  EXPECT_THAT(report("left = { motion = { velocity = [0.25, 0.0] } }\n", ""),
+              HasSubstr("the left wall moves at speeds up to 0.25, 1 at the left wall"));
+}
+
+}  // namespace
+}  // namespace carom
