@@ -9,6 +9,7 @@
 #include "core/base/short_number.hpp"
 #include "core/load/brownian_warnings.hpp"
 #include "core/load/memory_need.hpp"
+#include "core/load/press_warning.hpp"
 #include "core/load/settling_warning.hpp"
 #include "core/load/wall_warnings.hpp"
 #include "core/scene/scene_names.hpp"
@@ -335,9 +336,9 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
                     "model does nothing",
                     scene.file));
   }
-  for (std::string& warning : brownian_warnings(scene)) warnings.push_back(std::move(warning));
-  for (std::string& warning : settling_warnings(scene)) warnings.push_back(std::move(warning));
-  for (std::string& warning : wall_warnings(scene)) warnings.push_back(std::move(warning));
+  for (const auto warnings_of : {brownian_warnings, settling_warnings, wall_warnings, press_warnings}) {
+    for (std::string& warning : warnings_of(scene)) warnings.push_back(std::move(warning));
+  }
   warn_of_interval(scene, "output.every", scene.output.every, warnings);
   if (scene.analysis.any() && scene.analysis.every != scene.output.every)
     warn_of_interval(scene, "analysis.every", scene.analysis.every, warnings);

@@ -1,0 +1,63 @@
+#include "core/load/press_warning.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "core/scene/size_law.hpp"
+
+namespace carom {
+
+namespace {
+
+constexpr double densest_of_equal_disks = 0.90689968211710892530;  // pi / sqrt(12), between walls as in the plane
+
+// The least room that the disks of the start can do with: their area where sizes differ, as small ones fill gaps.
+// Obstacles, which may overlap, are left out.
+double least_room(const Scene& scene) {
+  double radius_squared = 0.0;
+  double smallest = HUGE_VAL, largest = 0.0;
+  DiskId first_id = 0;
+  for (const DiskGroup& group : scene.groups) {
+    if (group.count > 0 && !group.fixed) {
+      const SizeSummary sizes = summarise_sizes(group, scene.seed, first_id);
+      radius_squared += sizes.radius_squared;
+      smallest = std::min(smallest, sizes.smallest.radius);
+      largest = std::max(largest, sizes.largest.radius);
+    }
+    first_id += static_cast<DiskId>(group.count);
+  }
+  return std::numbers::pi * radius_squared / (smallest == largest ? densest_of_equal_disks : 1.0);
+}
+
+// How far a side has come by a time: one that vibrates as far as it ever comes, once it has been there.
+double room_by(const Domain& box, double t) {
+  const auto inset = [&](Side side) {
+    const SideMotion& motion = box.motions[static_cast<std::size_t>(side)];
+    return motion.vibrates() && t >= motion.period ? motion.largest_inset(t) : motion.at(t).inset;
+  };
+  return (box.width - inset(Side::left) - inset(Side::right)) * (box.height - inset(Side::bottom) - inset(Side::top));
+}
+
+}  // namespace
+
+std::vector<std::string> press_warnings(const Scene& scene) {
+  if (!scene.box.has_moving_wall() || has_sinks(scene)) return {};
+  const double needed = least_room(scene);
+  constexpr int looks = 1000;
+  for (int k = 0; k <= looks; ++k) {
+    const double t = scene.run.t_end * k / looks;
+    if (!(room_by(scene.box, t) < needed)) continue;
+    return {fmt::format(
+        "{}: box: the sides that move leave the disks, which need a room of {:.4g} at least, less than that by t = "
+        "{:.4g}: no method gets there, and exact is ever slower on the way; move the sides less far, or end the run "
+        "sooner",
+        scene.file, needed, t)};
+  }
+  return {};
+}
+
+}  // namespace carom

@@ -1,0 +1,66 @@
+// Sides that move leave the disks less room than they need: exact crawled towards that, and said nothing beforehand.
+#include "core/load/press_warning.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "core/load/scene_check.hpp"
+#include "tests/support/scene_support.hpp"
+
+namespace carom {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+// A box of 20 x 10 and 40 disks: of radius 1 they need a room of 80 sqrt(3), 138.56.
+Scene scene_with(std::string_view sides, std::string_view radius = "1.0", std::string_view more = "",
+                 std::string_view t_end = "10.0") {
+  return test::scene_from(
+      fmt::format("[box]\nwidth = 20.0\nheight = 10.0\n{}[[disks]]\ncount = 40\npositions = "
+                  "\"square\"\nradius = {}\nmass = 1.0\n{}[run]\nt_end = {}\n",
+                  sides, radius, more, t_end));
+}
+
+constexpr const char* slow = "right = { motion = { velocity = [-0.6, 0.0] } }\n";  // leaves 140 at t = 10
+constexpr const char* far = "right = { motion = { velocity = [-1.0, 0.0] } }\n";   // 138.56 at t = 6.144
+constexpr const char* both =
+    "left = { motion = { velocity = [0.4, 0.0] } }\nright = { motion = { velocity = [-0.4, "
+    "0.0] } }\n";  // 120 at t = 10
+
+TEST(PressWarnings, TellWhenTheRoomIsTooSmall) {
+  EXPECT_THAT(press_warnings(scene_with(slow)), IsEmpty());
+  EXPECT_THAT(
+      press_warnings(scene_with(far)),
+      ElementsAre("gas.toml: box: the sides that move leave the disks, which need a room of 138.6 at least, less "
+                  "than that by t = 6.15: no method gets there, and exact is ever slower on the way; move the "
+                  "sides less far, or end the run sooner"));
+  EXPECT_THAT(press_warnings(scene_with(far, "1.0", "", "6.1")), IsEmpty());
+  EXPECT_THAT(press_warnings(scene_with(both)), testing::SizeIs(1));
+  EXPECT_THAT(press_warnings(scene_with(far, "0.5")), IsEmpty());
+  EXPECT_THAT(scene_warnings(scene_with(far)), testing::Contains(HasSubstr("less than that by t = 6.15")));
+}
+
+// Of other sizes their area alone is sure: between 0.98^2 and 1 of 40 pi, 125.7, which is left at t = 7.43 and later.
+TEST(PressWarnings, DisksOfSeveralSizesMayFillMore) {
+  const auto found = press_warnings(scene_with(far, "{ uniform = [0.98, 1.0] }"));
+  EXPECT_THAT(found, ElementsAre(HasSubstr("less than that by t = 7.")));
+}
+
+// Its largest inset counts, 7: it leaves 130.
+TEST(PressWarnings, AVibrationComesAsFarAsItComes) {
+  const std::string floor = "right = {{ place = 16.5, motion = {{ vibrate = [{}, 0.0], period = 2.0 }} }}\n";
+  EXPECT_THAT(press_warnings(scene_with(fmt::format(fmt::runtime(floor), 3.5))), testing::SizeIs(1));
+  EXPECT_THAT(press_warnings(scene_with(fmt::format(fmt::runtime(floor), 2.5))), IsEmpty());
+}
+
+TEST(PressWarnings, NoneWhereSinksMakeRoom) {
+  EXPECT_THAT(press_warnings(scene_with(std::string(far) + "left = \"sink\"\n")), IsEmpty());
+  EXPECT_THAT(
+      press_warnings(scene_with(far, "1.0", "[[walls]]\nfrom = [0.5, 0.1]\nto = [0.6, 0.1]\nkind = \"sink\"\n")),
+      IsEmpty());
+}
+
+}  // namespace
+}  // namespace carom
