@@ -167,15 +167,14 @@ class Sweep {
   // One row a run that has come to its end.
   TableCount write_table() const {
     TableCount count;
-    std::string text = table_head(axes_);
+    std::vector<SweepRow> rows;
     for (const SweepRun& run : runs_) {
       if (!finished(run)) continue;
-      const Json summary = summary_of(run);
-      text += table_row(run, axes_.size(), summary);
+      const Json& summary = rows.emplace_back(SweepRow{&run, summary_of(run)}).summary;
       if (!summary.value("warnings", Json()).empty()) ++count.warned;
       count.versions.insert(summary.value("version", Json()).dump());
     }
-    replace_file(folder_ / "sweep.csv", text);
+    replace_file(folder_ / "sweep.csv", sweep_table(axes_, rows));
     return count;
   }
 

@@ -10,10 +10,14 @@
 
 namespace carom {
 
-// The line of names: the run, the keys of the sweep, the seed, and what each row takes from a summary.
-std::string table_head(const std::vector<SweepAxis>& axes);
+// A run that has come to its end.
+struct SweepRow {
+  const SweepRun* run;
+  nlohmann::ordered_json summary;
+};
 
-// The line of a run, of which this many keys are the sweep's.
-std::string table_row(const SweepRun& run, std::size_t axes, const nlohmann::ordered_json& summary);
+// A line of names: the run, the keys of the sweep, the seed, and what each row takes from a summary; then a line a run.
+// Heat and work have columns where a run has them, those of sides one a side: heat_left.
+std::string sweep_table(const std::vector<SweepAxis>& axes, const std::vector<SweepRow>& rows);
 
 }  // namespace carom
