@@ -1,4 +1,8 @@
 // The real program, as a user or another program calls it: exit statuses, one-line errors, what each command prints.
+#include <algorithm>
+#include <thread>
+
+#include "core/base/wall_clock.hpp"
 #include "tests/support/command_support.hpp"
 
 namespace carom {
@@ -31,6 +35,7 @@ TEST_F(CommandLine, BadUsageIsOneLineWithStatusTwo) {
       {"run small.toml --dt abc", "--dt: \"abc\" is not a number"},
       {"run small.toml --threads two", "--threads: is \"two\""},
       {"run small.toml --set run.dtt=1", "--set run.dtt: unknown key"},
+      {"run small.toml --set =1", "--set: is \"=1\"; expected KEY=VALUE"},
       {"run missing.toml", "missing.toml: "},
       {"resume", "resume: no checkpoint given"},
       {"check", "check: no scene file given"},
@@ -121,6 +126,31 @@ TEST_F(CommandLine, WhatFollowsTwoDashesIsNoOption) {
   const Outcome o = carom("check --json -- -gas.toml");
   EXPECT_EQ(o.status, 0) << o.err;
   EXPECT_THAT(o.out, HasSubstr("\"scene\": \"-gas.toml\""));
+  expect_error("$C check small.toml -- -more", 2, "one argument too many, \"-more\"");
+}
+
+// Whoever reads what the program prints may go away first: an error, but no signal that ends it.
+TEST_F(CommandLine, AReaderThatGoesAwayIsAnError) {
+  shell(
+      "{ until [ -e gone ]; do sleep 0.01; done; $C docs scene 2>said; echo $? >status; } | { exec <&-; : >gone; }; "
+      "true");
+  EXPECT_EQ(text_of(at("status")), "1\n");
+  EXPECT_EQ(text_of(at("said")), "carom: error: cannot write to standard output: Broken pipe\n");
+}
+
+TEST_F(CommandLine, KernelsThatThereAreNotAreRefusedByEveryCommand) {
+  expect_error("CAROM_KERNELS=wide $C docs scene", 2, "CAROM_KERNELS: there are no kernels \"wide\"");
+}
+
+TEST_F(CommandLine, AFileThatFindsNoMemoryIsAnError) {
+  expect_error("truncate -s 1G large.toml; ulimit -v 400000; $C check large.toml", 1, "error: out of memory");
+}
+
+TEST_F(LongCommandLine, TheWallTimeIsInSeconds) {
+  const auto start = WallClock::now();
+  EXPECT_EQ(carom("run small.toml --quiet --t-end 1e6 --max-walltime 0.3").status, 4);
+  const double seconds = seconds_since(start);
+  EXPECT_TRUE(seconds > 0.3 && seconds < 12.0) << seconds;
 }
 
 // Thousands would take the machine down. Without a mpiexec to be found, none is started whatever happens.
@@ -133,9 +163,31 @@ TEST_F(CommandLine, MoreRanksThanTheMachineCanBearAreRefused) {
                                     "carom-mpi\n"))
         << command;
   }
+  const unsigned most = 8 * std::max(1U, std::thread::hardware_concurrency());
+  EXPECT_THAT(shell(fmt::format("PATH=/nonexistent $C run small.toml -o out --ranks {}", most)).err,
+              Not(HasSubstr("too many")));
   EXPECT_FALSE(std::filesystem::exists(at("out")));
   EXPECT_EQ(carom("sweep small.toml --seeds 2 -o out --ranks 100000 --emit slurm").status, 0)
       << "which is for another machine";
+}
+
+// Programs in the place of mpiexec.
+TEST_F(CommandLine, ARankThatDiesEndsTheRunWithALine) {
+  if (!std::filesystem::exists(std::filesystem::path(CAROM_PROGRAM).replace_filename("carom-mpi"))) {
+    GTEST_SKIP() << "a build without MPI";
+  }
+  const auto run_with = [&](const std::string& mpiexec) {
+    write("mpiexec", "#!/bin/sh\n" + mpiexec + "\n");
+    std::filesystem::permissions(at("mpiexec"), std::filesystem::perms::owner_all);
+    return shell("PATH=.:$PATH $C run small.toml -o out --ranks 2");
+  };
+  const Outcome killed = run_with("kill -9 $$");
+  EXPECT_EQ(killed.status, 1);
+  EXPECT_THAT(killed.err, StartsWith("carom: error: one of the ranks was killed by signal 9; the last checkpoint, if"));
+  const Outcome missing = run_with("exit 127");
+  EXPECT_EQ(missing.status, 1);
+  EXPECT_THAT(missing.err, StartsWith("carom: error: one of the ranks could not be started; "));
+  EXPECT_EQ(run_with("exit 3").status, 3) << "rank 0 has said why";
 }
 
 TEST_F(CommandLine, HelpAndVersion) {
@@ -178,6 +230,10 @@ TEST_F(LongCommandLine, ChartWritesAllItsFilesOrNone) {
               ElementsAre("chart.csv", "chart.json", "chart.png", "chart.svg", "chart_all.png", "chart_all.svg"));
   EXPECT_EQ(Json::parse(text_of(at("chart/chart.json")))["scenes"].size(), 10U);
   expect_error("$C chart --tiny --quiet -o chart", 2, "chart/chart.svg: exists already");
+  const Outcome again = carom("chart --tiny --force -o chart"), quiet = carom("chart --tiny --quiet --force -o chart");
+  EXPECT_THAT(again.out, StartsWith("chart/chart.svg after "));
+  EXPECT_EQ(quiet.status, 0);
+  EXPECT_EQ(quiet.out + quiet.err, "");
   expect_error("$C chart --tiny -o small.toml", 2, "small.toml: is a file");
   expect_error("$C chart --quik", 2, "chart: there is no option \"--quik\"; expected one of");
   expect_error("$C chart now", 2, "chart: one argument too many, \"now\"");

@@ -47,6 +47,7 @@ TEST_F(Compare, PeriodicPlacesDifferByTheNearestImage) {
 
 TEST_F(Compare, AToleranceForgivesUpToItself) {
   EXPECT_EQ(compare("--tolerance 0.5").status, 0);
+  EXPECT_EQ(compare("--tolerance 0").status, 1);
   EXPECT_EQ(compare("--tolerance 0.5").out,
             "the same to 0.5 in 3 frames\n"
             "  x       differs by at most 0.5, in frame 3 (t = 0.2), disk 0\n"
@@ -88,6 +89,7 @@ TEST_F(Compare, TimesAreChosenButForRounding) {
   EXPECT_EQ(compare("--times 0.30000000000000004:").status, 1);
   EXPECT_EQ(compare("--times :0.3").status, 1) << "the last one at 0.30000000000000004 is within";
   EXPECT_EQ(compare("--times 0.1:0.2").status, 0);
+  EXPECT_EQ(compare("--times 0.1:0.1").out, "same bits in 1 frame\n");
   EXPECT_EQ(compare("--at 0.3").status, 1);
   expect_error("$C compare a.xyz b.xyz --at -0.1", 2, "a.xyz: has no frame at t = -0.1; expected --at within");
 }

@@ -95,6 +95,19 @@ TEST(Progress, RatesAreThoseOfTheLastSeconds) {
             "\r 15.0 %  t = 15 of 100  10 steps/s  100 disk-steps/s  " + duration_text(170.0) + " left\x1b[K");
 }
 
+// Seconds of five and of fifteen steps in turn: a rate is that of the last five seconds, not of the last one.
+TEST(Progress, RatesAreMeansOfMoreThanAMoment) {
+  Clock clock;
+  Progress progress(true, 100.0, state_at(0.0, 0), 10, clock.place(true, 200));
+  Count steps = 0;
+  for (int second = 1; second <= 20; ++second) {
+    clock.now += 1.0;
+    steps += second % 2 == 1 ? 5 : 15;
+    progress.update(state_at(second, steps));
+  }
+  EXPECT_THAT(clock.written.back(), ::testing::HasSubstr("  11 steps/s  110 disk-steps/s"));
+}
+
 // Of ten disks three had come from sources and one had left before; five more come, and one more leaves.
 TEST(Progress, DisksAreThoseThatThereAre) {
   Clock clock;

@@ -18,8 +18,9 @@ class StandInGnuplot {
 
   StandInGnuplot() : folder_("gnuplot"), path_(std::getenv("PATH")) {
     const std::string at = folder_.path().string();
-    const std::string program = folder_.write("gnuplot", "#!/bin/sh\ncp script '" + at + "/kept_script'\ncp data '" +
-                                                             at + "/kept_data'\necho '</svg>' >plot.svg\n");
+    const std::string program = folder_.write(
+        "gnuplot", "#!/bin/sh\ncp script '" + at + "/kept_script'\ncp data '" + at +
+                       "/kept_data'\nfor p in plot.svg chart.svg chart.png; do echo '</svg>' >$p; done\n");
     std::filesystem::permissions(program, std::filesystem::perms::owner_all);
     setenv("PATH", (at + ":" + path_).c_str(), 1);
   }
