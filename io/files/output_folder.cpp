@@ -171,17 +171,24 @@ void check_links(const fs::path& name, const fs::path& folder) {
   }
 }
 
-// Makes sure that a folder could be made here, by making one that goes away again, and what is missing above it.
-void check_writable(const fs::path& name, const fs::path& folder) {
-  check_links(name, folder);
+// Why no folder can be made here, found out by making one that goes away again; nothing where there is but no room.
+std::error_code why_not_writable(const fs::path& folder) {
   std::error_code error;
-  const std::vector<fs::path> made = missing_folders(folder);
   const fs::path probe = folder / fmt::format("carom-probe-{}", getpid());
   fs::create_directories(probe, error);
   const std::error_code why = error;
   fs::remove(probe, error);
+  return why == std::errc::no_space_on_device ? std::error_code{} : why;
+}
+
+// Makes sure that a folder could be made here, with what is missing above it, which goes away again.
+void check_writable(const fs::path& name, const fs::path& folder) {
+  check_links(name, folder);
+  std::error_code error;
+  const std::vector<fs::path> made = missing_folders(folder);
+  const std::error_code why = why_not_writable(folder);
   for (const fs::path& p : made) fs::remove(p, error);  // takes empty ones only
-  if (!why || why == std::errc::no_space_on_device) return;
+  if (!why) return;
   throw InputError(fmt::format("{}: cannot be {}: {}; expected a folder for the results (-o)", name.string(),
                                made.empty() ? "written to" : "made", why.message()));
 }
@@ -317,6 +324,10 @@ OutputFolder::OutputFolder(const fs::path& folder)
     : folder_(normal(folder)), unfinished_(unfinished_of(folder_)), done_(true) {
   std::error_code error;
   fs::create_directories(unfinished_, error);
+  // Both may be there and take no files, which the first one would find out when others have been moved.
+  for (const fs::path& place : {folder_, unfinished_}) {
+    if (!error) error = why_not_writable(place);
+  }
   if (error)
     throw InputError(
         fmt::format("{}: cannot be written to: {}; go on in another folder with -o", name(), error.message()));

@@ -9,7 +9,10 @@
 #include <array>
 #include <atomic>
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <string>
 #include <thread>
 #include <vector>
@@ -112,6 +115,10 @@ TEST_F(OutputFolderTest, ResultsAreReplacedByForceOnly) {
   EXPECT_EQ(text(folder / "summary.json"), "second");
   EXPECT_FALSE(fs::exists(folder / "series.csv")) << "no file of the earlier run is mixed in";
   EXPECT_EQ(text(folder / "notes.txt"), "mine");
+  fs::create_directories(folder / unfinished_name);
+  write_file(folder / unfinished_name / "trajectory.xyz", "of one that was stopped");
+  run(folder, "third", true);
+  EXPECT_FALSE(fs::exists(folder / "trajectory.xyz"));
 }
 
 // Found out at the end of a run it would have cost the old results, and the new ones.
@@ -242,6 +249,36 @@ TEST_F(OutputFolderTest, AStoppedRunIsGoneOnWithWhereItCanBe) {
   EXPECT_THAT(refusal(base_ / "out", false), HasSubstr("); go on with carom resume "));
 }
 
+// Of a stopped run, for a process of another user where the test itself may write anywhere.
+TEST_F(OutputFolderTest, WhereNoFileCanBeWrittenNoRunGoesOn) {
+  constexpr auto open = fs::perms::all, closed = fs::perms::all & ~fs::perms(0222);
+  const fs::path out = base_ / "out", unfinished = out / unfinished_name;
+  fs::create_directories(unfinished);
+  const auto go_on = [&] {
+    constexpr uid_t nobody = 65534;
+    if (geteuid() == 0 && seteuid(nobody) != 0) std::_Exit(1);
+    try {
+      const OutputFolder folder(out);
+    } catch (const InputError& e) {
+      std::fputs(e.what(), stderr);
+      std::_Exit(2);
+    }
+    std::_Exit(0);
+  };
+  fs::permissions(base_, closed);
+  fs::permissions(out, open);
+  fs::permissions(unfinished, open);
+  EXPECT_EXIT(go_on(), ::testing::ExitedWithCode(0), "");
+  for (const fs::path& place : {unfinished, out}) {
+    fs::permissions(place, closed);
+    EXPECT_EXIT(go_on(), ::testing::ExitedWithCode(2),
+                "out: cannot be written to: Permission denied; go on in another folder with -o");
+    EXPECT_EQ(std::distance(fs::directory_iterator(unfinished), {}), 1) << "the lock alone";
+    fs::permissions(place, open);
+  }
+  fs::permissions(base_, open);
+}
+
 TEST_F(OutputFolderTest, TheRootAndTheCurrentFolderAreKnown) {
   for (const char* const root : {"/", "//", "/tmp/.."}) {
     EXPECT_THAT(refusal(root, true), HasSubstr(": is the root of all folders; expected one of the run's own")) << root;
@@ -368,6 +405,7 @@ TEST_F(OutputFolderTest, AFileIsGoneOnWithToTheByte) {
   EXPECT_EQ(text(file), "123x") << "nothing is touched";
   for (const std::uint64_t bytes : {0U, 5U}) EXPECT_THROW(OutputFile(base_ / "none.csv", bytes), InputError) << bytes;
   EXPECT_FALSE(fs::exists(base_ / "none.csv"));
+  EXPECT_NO_THROW(check_at_least(base_, 0)) << "a folder, as that of a movie's frames";
 }
 
 // What fits into the buffer is written when the file is closed.
@@ -376,6 +414,8 @@ TEST_F(OutputFolderTest, AFullDiskIsSeenWhenAFileIsClosed) {
   OutputFile file("/dev/full");
   file.write("a");
   EXPECT_THROW(file.flush(), RunError);
+  OutputFile large("/dev/full");
+  EXPECT_THROW(large.write(std::string(1'000'000, 'a')), RunError) << "more than the buffer takes";
 }
 
 }  // namespace
