@@ -121,6 +121,7 @@ class Sweep {
     std::vector<const SweepRun*> rest;
     for (const SweepRun& run : runs_) {
       if (!finished(run)) rest.push_back(&run);
+      if (finished(run)) fs::remove(log_of(run));  // left where the sweep was killed, and its run came to its end
     }
     const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     const int jobs = options_.jobs.value_or(std::max(1, cores / options_.ranks));

@@ -79,9 +79,11 @@ TEST_F(SweepTest, RunsTheGridAndGoesOnWhereItStopped) {
 
   fs::remove(folder_.path() / "s/runs/0005/summary.json");
   fs::remove(folder_.path() / "s/sweep.csv");
+  folder_.write("s/runs/0002.log", "");  // as after a kill of the sweep, which its run outlived
   const std::string kept = read("s/runs/0007/summary.json");
   EXPECT_THAT(carom(words).second, HasSubstr("1 of 12 runs are left"));
   EXPECT_EQ(read("s/runs/0007/summary.json"), kept) << "was run again";
+  EXPECT_FALSE(fs::exists(folder_.path() / "s/runs/0002.log"));
   const std::vector<std::string> again = rows("s/sweep.csv");
   ASSERT_EQ(again.size(), table.size());
   for (std::size_t k = 0; k < table.size(); ++k) EXPECT_EQ(without_time(again[k]), without_time(table[k]));
