@@ -151,6 +151,24 @@ class CheckpointBytes : public ::testing::Test {
   const test::TestFolder folder_{"checkpoint_bytes"};
 };
 
+TEST_F(CheckpointBytes, AChangedBitIsSeenWhereverTheyLie) {
+  const std::string whole = checkpoint_bytes({}, two_disks());
+  for (std::size_t k = 0; k < whole.size(); ++k) {
+    std::string bytes = whole;
+    bytes[k] = static_cast<char>(bytes[k] ^ (1 << (k % 8)));
+    EXPECT_NE(complaint(bytes), "") << k;
+  }
+}
+
+// What a new checkpoint may take the place of: another one, or a file that is empty.
+TEST_F(CheckpointBytes, AnotherFileIsOneThatHoldsSomethingElse) {
+  EXPECT_FALSE(is_another_file(folder_.write("c.carom", checkpoint_bytes({}, two_disks()))));
+  EXPECT_FALSE(is_another_file(folder_.write("empty", "")));
+  EXPECT_FALSE(is_another_file(folder_.path() / "none"));
+  EXPECT_TRUE(is_another_file(folder_.write("short", "car")));
+  EXPECT_TRUE(is_another_file(folder_.write("text", "carom checkpoint")));
+}
+
 TEST_F(CheckpointBytes, ItsLengthIsTheOneThatItSays) {
   const std::string whole = checkpoint_bytes({}, two_disks());
   const std::uint64_t content = content_of(whole);

@@ -3,12 +3,17 @@
 
 #include <gmock/gmock.h>
 #include <stdlib.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
+#include <sstream>
+#include <string>
 
 #include "core/base/check.hpp"
+#include "core/base/wall_clock.hpp"
 #include "io/files/shell_word.hpp"
 #include "tests/support/test_folder.hpp"
 
@@ -37,8 +42,8 @@ class Child : public ::testing::Test {
     folder_.write(name, "#!/bin/sh\n");
     fs::permissions(at(name), fs::perms::owner_all);
   }
-  ChildProcess shell(const std::string& command) const {
-    return {{"/bin/sh", "-c", command}, folder_.path().string(), at("log")};
+  ChildProcess shell(const std::string& command, ChildSignals signals = ChildSignals::held_back) const {
+    return {{"/bin/sh", "-c", command}, folder_.path().string(), at("log"), signals};
   }
   const test::TestFolder folder_{::testing::UnitTest::GetInstance()->current_test_info()->name()};
 };
@@ -71,6 +76,53 @@ TEST_F(Child, OneThatIsGoneTakesNothingMore) {
   const std::string text(1'000'000, 'x');
   EXPECT_FALSE(gone.write(text.data(), text.size()));
   EXPECT_EQ(gone.wait(), 0);
+}
+
+// A pipe takes a part of what is written where a signal comes in between.
+TEST_F(Child, WhatASignalInterruptsIsWrittenInFull) {
+  std::string text(4'000'000, ' ');
+  for (std::size_t k = 0; k < text.size(); ++k) text[k] = static_cast<char>('a' + k % 23);
+  struct sigaction interrupts {};
+  interrupts.sa_handler = [](int) {};
+  struct sigaction before {};
+  sigaction(SIGALRM, &interrupts, &before);  // without SA_RESTART
+  const itimerval often{{0, 500}, {0, 500}}, never{};
+  ChildProcess slow = shell("sleep 0.1; cat >copy");
+  setitimer(ITIMER_REAL, &often, nullptr);
+  EXPECT_TRUE(slow.write(text.data(), text.size()));
+  setitimer(ITIMER_REAL, &never, nullptr);
+  sigaction(SIGALRM, &before, nullptr);
+  EXPECT_EQ(slow.wait(), 0);
+  EXPECT_TRUE(test::text_of(at("copy")) == text);
+}
+
+TEST_F(Child, OneThatIsNotWantedAnyMoreIsKilled) {
+  const auto start = WallClock::now();
+  { const ChildProcess idle = shell("exec sleep 30"); }
+  EXPECT_LT(seconds_since(start), 20.0);
+}
+
+// A terminal sends its signals to the whole group of the process, and a batch system to each process of a job.
+TEST_F(Child, SignalsForUsDoNotReachIt) {
+  EXPECT_EQ(shell("kill -TERM $$; echo alive").wait(), 0);
+  EXPECT_EQ(last_line(at("log")), "alive");
+  EXPECT_EQ(shell("kill -TERM $$; echo alive", ChildSignals::reach_it).wait(), 128 + SIGTERM);
+  ASSERT_EQ(shell("echo $$ $(ps -o pgid= -p $$)").wait(), 0);
+  std::istringstream said(last_line(at("log")));
+  pid_t process = 0, group = -1;
+  said >> process >> group;
+  EXPECT_EQ(group, process);
+}
+
+// What a run of a sweep starts itself is not the sweep's.
+TEST_F(Child, AParentIsThatOfTheChildAlone) {
+  const auto begin = [](const std::string& parent) {
+    setenv("CAROM_PARENT", parent.c_str(), 1);
+    end_with_parent();
+    std::_Exit(getenv("CAROM_PARENT") == nullptr ? 0 : 1);
+  };
+  EXPECT_EXIT(begin(std::to_string(getppid())), testing::ExitedWithCode(0), "");
+  EXPECT_EXIT(begin("1234567890"), testing::KilledBySignal(SIGTERM), "") << "it has died before";
 }
 
 TEST_F(Child, ItsLastWordIsTheLastLineThatSaysAnything) {

@@ -46,14 +46,14 @@ LogPanel panel_of(const std::string& title) {
   return panel;
 }
 
-// Two columns; two rows of the first section, one of the second.
+// Two columns; two rows of the first section, one, which is full, of the second.
 LogFigure figure() {
   LogFigure f;
   f.title = "page";
   f.caption = "line one\nline two";
   f.columns = 2;
   f.sections.push_back({"upper", {panel_with_bounds(), panel_of("second"), panel_of("third")}});
-  f.sections.push_back({"lower", {panel_of("fourth")}});
+  f.sections.push_back({"lower", {panel_of("fourth"), panel_of("fifth")}});
   return f;
 }
 
@@ -85,7 +85,7 @@ TEST_F(LogFigureScript, APictureHasRoomForAllRows) {
 
 TEST_F(LogFigureScript, ErrorsAndBoundsAreBlocksOfTheirOwn) {
   const auto blocks = gnuplot_.blocks();
-  ASSERT_THAT(blocks, SizeIs(10));
+  ASSERT_THAT(blocks, SizeIs(12));
   EXPECT_THAT(blocks[0], ElementsAre(ElementsAre(1.0, 10.0, 8.0, 12.0), ElementsAre(10.0, 1.0, 1e-9, 6.0)));
   EXPECT_THAT(blocks[1], ElementsAre(ElementsAre(100.0, 0.25, 0.25, 0.25)));
   ASSERT_THAT(blocks[2], ElementsAre(SizeIs(4))) << "a block that has nothing to draw counts all the same";
@@ -96,7 +96,7 @@ TEST_F(LogFigureScript, ErrorsAndBoundsAreBlocksOfTheirOwn) {
 
 TEST_F(LogFigureScript, EachCurveIsDrawnFromItsOwnBlocks) {
   const std::vector<std::string> plots = commands("plot 'data' index ");
-  ASSERT_THAT(plots, SizeIs(4));
+  ASSERT_THAT(plots, SizeIs(5));
   EXPECT_THAT(plots[0], AllOf(StartsWith("0 using 1:2 with lines lw 1.6 dt solid lc rgb '#D55E00'"),
                               HasSubstr(", 'data' index 0 using 1:2:3:4 with yerrorbars pt 5 "),
                               HasSubstr(", 'data' index 1 using 1:2 with points pt 4 "),
@@ -104,17 +104,18 @@ TEST_F(LogFigureScript, EachCurveIsDrawnFromItsOwnBlocks) {
                               HasSubstr(", 'data' index 2 using 1:2:3:4 with yerrorbars pt 6 "),
                               HasSubstr(", 'data' index 3 using 1:2 with points pt 6 ")));
   EXPECT_THAT(plots[1], AllOf(StartsWith("4 using 1:2 with lines"), HasSubstr("index 5 using 1:2 with points pt 12 ")));
-  EXPECT_THAT(plots[3], StartsWith("8 using 1:2 with lines"));
+  EXPECT_THAT(plots[4], StartsWith("10 using 1:2 with lines"));
 }
 
 TEST_F(LogFigureScript, PanelsStandInRowsBelowTheirHeadings) {
   const std::vector<std::string> left = commands("set lmargin at screen "), top = commands("set tmargin at screen "),
                                  right = commands("set rmargin at screen "),
                                  bottom = commands("set bmargin at screen ");
-  ASSERT_THAT(left, SizeIs(5)) << "the page as a whole comes first";
-  const double columns[] = {0.0, 262.0, 0.0, 0.0};
-  const double rows[] = {74.0, 74.0, 74.0 + 270.0, 74.0 + 2.0 * 270.0 + 34.0};
-  for (std::size_t k = 0; k < 4; ++k) {
+  ASSERT_THAT(left, SizeIs(6)) << "the page as a whole comes first";
+  const double columns[] = {0.0, 262.0, 0.0, 0.0, 262.0};
+  constexpr double lower = 74.0 + 2.0 * 270.0 + 34.0;
+  const double rows[] = {74.0, 74.0, 74.0 + 270.0, lower, lower};
+  for (std::size_t k = 0; k < 5; ++k) {
     EXPECT_NEAR(std::stod(left[k + 1]), (columns[k] + 58.0) / page_width, 1e-12) << k;
     EXPECT_NEAR(std::stod(right[k + 1]), (columns[k] + 252.0) / page_width, 1e-12) << k;
     EXPECT_NEAR(std::stod(top[k + 1]), 1.0 - (rows[k] + 68.0) / page_height, 1e-12) << k;
@@ -128,10 +129,9 @@ TEST_F(LogFigureScript, PanelsStandInRowsBelowTheirHeadings) {
 }
 
 TEST_F(LogFigureScript, AxesGoByTheirPanel) {
-  EXPECT_THAT(commands("set xrange "),
-              ElementsAre("[1:2]", "[1:1000]", "[0.5:200000]", "[0.5:200000]", "[0.5:200000]"));
-  EXPECT_THAT(commands("set yrange "),
-              ElementsAre("[1:2]", "[1e-08:100]", "[0.5:200000]", "[0.5:200000]", "[0.5:200000]"));
+  constexpr const char* small = "[0.5:200000]";
+  EXPECT_THAT(commands("set xrange "), ElementsAre("[1:2]", "[1:1000]", small, small, small, small));
+  EXPECT_THAT(commands("set yrange "), ElementsAre("[1:2]", "[1e-08:100]", small, small, small, small));
   EXPECT_THAT(commands("set xtics ")[0], "('10^{3}' 1e3, '10^{2}' 1e2, '10^{1}' 1e1, '10^{0}' 1e0)");
   // Ten decades: every third one has its number; five and a half: every second.
   EXPECT_THAT(commands("set ytics ")[0],

@@ -95,8 +95,8 @@ TEST(LongTrajectoryH5md, PythonReadsTheSameBitsFromBothFormats) {
 
 TEST(TrajectoryH5md, SubsetsHoldTheDisksAskedFor) {
   const TestFolder folder("h5md_subset");
-  for (const std::string select : {"\"every 3rd\"", "[2, 2, 14, 9.5]"}) {
-    const std::string option = "--force --set 'output.select=" + select + "'";
+  for (const std::string select : {"\"every 3rd\"", "\"three\"", "[2, 2, 14, 9.5]"}) {
+    const std::string option = "--force --set disks.1.name='\"three\"' --set 'output.select=" + select + "'";
     run_scene(folder, "xyz", option);
     run_scene(folder, "h5", option + " --set output.trajectory=h5md");
     EXPECT_THAT(compare(folder, "xyz", "h5").second, HasSubstr("same bits in all 33 frames")) << select;
@@ -106,14 +106,16 @@ TEST(TrajectoryH5md, SubsetsHoldTheDisksAskedFor) {
     while (reader.read(frame)) {
       for (std::size_t i = 0; i < frame.disks.size(); ++i, ++seen) {
         const Disks& d = frame.disks;
-        if (select[0] == '"') {
+        if (select == "\"three\"") {
+          EXPECT_TRUE(d.id[i] >= 20 && d.id[i] < 23) << d.id[i];
+        } else if (select[0] == '"') {
           EXPECT_EQ(d.id[i] % 3, 0U);
         } else {
           EXPECT_TRUE(d.x[i] >= 2 && d.x[i] <= 14 && d.y[i] >= 2 && d.y[i] <= 9.5);
         }
       }
     }
-    EXPECT_GT(seen, 100U);
+    EXPECT_GT(seen, select == "\"three\"" ? 30U : 100U);
     const bool moving = select[0] == '[';  // places change hands: the sizes of a frame are its own
     const std::string xdmf = test::text_of((folder.path() / "h5/trajectory.xdmf").string());
     EXPECT_THAT(xdmf, HasSubstr(moving ? "/disks/radius/value</DataItem>" : "/disks/radius</DataItem>"));
@@ -266,6 +268,12 @@ TEST(TrajectoryH5md, GoesOnAfterAnyFrame) {
     EXPECT_EQ(check_frames(path), 35U) << kept;
   }
   EXPECT_THROW(H5mdWriter(path, drifting_scene(), 36), RunError);
+  // Of a run that ended before its first frame: masses and radii are still to come.
+  H5mdWriter(path, drifting_scene()).close();
+  H5mdWriter writer(path, drifting_scene(), Count{0});
+  write_frames(writer, 0, 2);
+  writer.close();
+  EXPECT_EQ(check_frames(path), 2U);
   Scene other = drifting_scene();
   other.sources.clear();
   EXPECT_THROW(H5mdWriter(path, other, 2), RunError);

@@ -28,6 +28,27 @@ def test_callbacks_come_at_their_times_and_what_they_raise_ends_the_run_only():
     assert other.hash == sim.hash
 
 
+def test_a_run_until_a_time_that_has_come_makes_no_step():
+    sim = carom.Simulation(gas(), threads=1)
+    for until in (0, 0.0, -1.0):
+        sim.run(until=until)
+        assert sim.steps == 0
+    sim.run(until=0.5)
+    steps = sim.steps
+    sim.run(until=sim.time)
+    assert sim.steps == steps > 0
+
+
+# Sums of dt are rounded; exact windows end where they end.
+@pytest.mark.parametrize("method, t_end, calls", [("pairwise", 1.0 - 5e-7, 1), ("exact", 1.0 - 5e-7, 0), ("exact", 1.0, 1)])
+def test_a_little_too_early_is_in_time_for_steps_alone(method, t_end, calls):
+    sim = carom.Simulation(carom.Scene.parse(gas(2).toml(), {"run.method": method, "run.t_end": t_end}), threads=1)
+    seen = []
+    sim.every(1.0, lambda s: seen.append(s.time))
+    sim.run()
+    assert len(seen) == calls
+
+
 # Steps end at multiples of the interval, and their quotient by it may be rounded across a whole number.
 @pytest.mark.parametrize("dt, interval", [(0.1, 0.1), (0.01, 0.01), (0.07, 0.07), (0.01, 0.07), (0.03, 0.01)])
 def test_callbacks_come_once_at_every_multiple(dt, interval):

@@ -201,6 +201,14 @@ def test_gsd_takes_frames(result, tmp_path):
     assert np.allclose(read.particles.velocity[:, 0], frame.vx)
 
 
+def test_gsd_has_the_groups_as_types():
+    pytest.importorskip("gsd.hoomd")
+    columns = {name: np.arange(3.0) for name in ("x", "y", "vx", "vy")}
+    columns |= {"radius": np.ones(3), "mass": np.ones(3), "id": np.arange(3), "group": np.array([0, 2, 1])}
+    particles = carom.Frame(0.0, 10.0, 10.0, False, False, columns).to_gsd().particles
+    assert particles.types == ["group 0", "group 1", "group 2"] and list(particles.typeid) == [0, 2, 1]
+
+
 def test_gsd_says_why_a_file_cannot_be_written(result, tmp_path):
     pytest.importorskip("gsd.hoomd")
     with pytest.raises(IsADirectoryError):
