@@ -138,6 +138,9 @@ TEST_F(Loopback, SurvivesHalfRequestsEndlessOnesAndClientsThatGo) {
     gone.vanish();
   }
   expect_alive();
+  const std::string filler = "\r\nX: " + std::string(longest_request, 'a') + "\r\n\r\n";
+  const std::string long_head = ask("GET " + path_ + "well HTTP/1.1\r\nHost: " + host_ + filler);
+  EXPECT_TRUE(long_head.empty() || long_head.starts_with("HTTP/1.1 431 ")) << long_head;
   half.say("well HTTP/1.1\r\nHost: " + host_ + "\r\n\r\n");
   server_.serve(20);
   EXPECT_THAT(half.hear(), HasSubstr("behind: well"));
@@ -162,6 +165,17 @@ TEST_F(Loopback, ManySilentClientsDoNotKeepOthersOut) {
   for (int k = 0; k < 40; ++k) silent.push_back(std::make_unique<Caller>(host_));
   server_.serve(30);
   expect_alive();
+}
+
+// Another address of this computer stands for one of its network.
+TEST_F(Loopback, ListensAtOneAddressAlone) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(std::atoi(host_.c_str() + host_.find(':') + 1)));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK + 1);
+  const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
+  EXPECT_NE(::connect(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  ::close(socket);
 }
 
 // Frames of two disks, and of a third from frame 3 on.
@@ -216,7 +230,7 @@ TEST(LiveRun, IsFollowedFrameByFrameToItsEnd) {
   file.close();
   std::ofstream(output.path("summary.json")) << "{}";
   output.finish();
-  live.read(1.0);
+  live.read(0.0);  // no time for a frame, but for what comes last
   EXPECT_TRUE(live.ended());
   EXPECT_EQ(live.state(), "The run is done.");
   now = news("news/3/3");
@@ -259,6 +273,10 @@ TEST(LiveRun, KeepsThePageBelowItsSize) {
   EXPECT_LE(bytes, 4000U);
   EXPECT_GT(bytes, 2000U);
   EXPECT_THAT(live.state(), HasSubstr("on, the page shows one frame of up to "));
+  const auto times = all["times"].get<std::vector<double>>();
+  ASSERT_GT(times.size(), 3U);
+  EXPECT_EQ(times[1] - times[0], 1.0);
+  EXPECT_GE(times[times.size() - 1] - times[times.size() - 2], 2.0) << "it does show one of several";
 }
 
 }  // namespace

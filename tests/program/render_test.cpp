@@ -115,6 +115,7 @@ TEST_F(Render, WhatItCannotMakeIsRefusedInOneLine) {
   refused("-o x.png --size 640", "expected WIDTHxHEIGHT, as in 1280x720");
   refused("-o x.gif --fps 60", "expected at most 50 for a GIF");
   refused("-o x.mp4 --fps 0", "expected from 0.1 to 1000 frames a second");
+  refused("-o small.toml/x.png", "small.toml/x.png: cannot be written: Not a directory");
   for (const char* const file : {"film.avi", "film", "film.mp4", "x.png", "x.gif", "x.mp4"})
     EXPECT_FALSE(fs::exists(at(file)));
 }
@@ -190,6 +191,41 @@ TEST_F(Render, APictureIsOfTheFrameThatIsAskedFor) {
 }
 
 // The scene that lies beside a trajectory may be that of another run.
+// So that pictures of a run can be compared.
+TEST_F(Render, TheScaleReachesOverAllFrames) {
+  const auto picture_of_first = [&](const std::string& speed_of_second) {
+    std::string frames;
+    for (const std::string& speed : {std::string("1"), speed_of_second}) {
+      frames +=
+          "1\nLattice=\"8 0 0 0 6 0 0 0 1\" pbc=\"F F F\" "
+          "Properties=species:S:1:pos:R:2:velo:R:2:radius:R:1:mass:R:1:id:I:1 Time=" +
+          std::string(frames.empty() ? "0" : "1") + "\nX 2 2 " + speed + " 0 0.5 1 0\n";
+    }
+    write("t.xyz", frames);
+    EXPECT_EQ(carom("render t.xyz --frame 1 -o t.svg --force").status, 0);
+    return text_of(at("t.svg"));
+  };
+  const std::string slow = picture_of_first("1");
+  EXPECT_EQ(picture_of_first("0.5"), slow);
+  EXPECT_NE(picture_of_first("4"), slow);
+}
+
+TEST_F(Render, TheScenesScaleIsOfItsOwnColourAlone) {
+  const auto picture = [&](const std::string& movie, const std::string& colour) {
+    run_small("--set output.movie=false");
+    std::string scene = text_of(at("out/scene.toml"));
+    const std::string none = "movie = false";
+    scene.replace(scene.find(none), none.size(), "movie = " + movie);
+    write("out/scene.toml", scene);
+    const Outcome o = carom("render out -o p.svg --force --colour " + colour);
+    EXPECT_EQ(o.status, 0) << o.err;
+    return text_of(at("p.svg"));
+  };
+  const std::string plain = picture("{ colour = \"mass\" }", "mass");
+  EXPECT_EQ(picture("{ colour = \"radius\", range = [0, 50] }", "mass"), plain);
+  EXPECT_NE(picture("{ colour = \"mass\", range = [0, 50] }", "mass"), plain);
+}
+
 TEST_F(Render, ASceneOfAnotherBoxIsNotThatOfTheTrajectory) {
   const std::string told =
       "carom: warning: title and sides come from the trajectory alone: a/scene.toml: has another box "

@@ -174,7 +174,7 @@ TEST_F(SweepTest, ItsRunsEndWithIt) {
   if (sweep == 0) {
     if (chdir(folder_.path().c_str()) != 0) _exit(1);
     execl(CAROM_PROGRAM, "carom", "sweep", "gas.toml", "-o", "s", "--jobs", "2", "--over", "run.t_end=1e9,2e9", "--set",
-          "physics.restitution=1", "--set", "output.checkpoint=1", nullptr);
+          "physics.restitution=1", "--set", "output.checkpoint=1000", nullptr);
     _exit(1);
   }
   const auto checkpoint = [&](const char* run) { return folder_.path() / "s/runs" / run / "carom-unfinished"; };
@@ -184,6 +184,13 @@ TEST_F(SweepTest, ItsRunsEndWithIt) {
   const auto [status, text] = carom("sweep gas.toml -o s --seeds 2 --force");
   EXPECT_EQ(status, 2);
   EXPECT_THAT(text, HasSubstr("s: another sweep is running there; expected a folder of its own (-o)"));
+  // SIGUSR1 is for a checkpoint of each run, which goes on.
+  kill(sweep, SIGUSR1);
+  for (const char* const run : {"0001", "0002"}) {
+    while (!fs::exists(checkpoint(run) / "checkpoint.previous.carom")) usleep(1000);
+  }
+  usleep(300'000);
+  EXPECT_EQ(waitpid(sweep, nullptr, WNOHANG), 0);
   kill(sweep, SIGKILL);
   waitpid(sweep, nullptr, 0);
   // Their locks go with them.

@@ -1,0 +1,140 @@
+// What carom check says of a scene's physics, of the steps it takes, and of files that it only guesses.
+#include <cmath>
+#include <string>
+
+#include "tests/support/command_support.hpp"
+
+namespace carom {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using test::Outcome;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+// Two disks, the heavy one first.
+constexpr const char* two_disks = R"([box]
+width = 10.0
+height = 10.0
+[physics]
+gravity = 1.0
+[[disks]]
+name = "heavy"
+count = 1
+positions = [[5.0, 8.5]]
+radius = 0.5
+mass = 3.0
+[[disks]]
+name = "light"
+count = 1
+positions = [[2.0, 2.0]]
+radius = 0.5
+mass = 1.0
+[run]
+method = "pairwise"
+dt = 0.01
+t_end = 10.0
+[output]
+every = 0.1
+)";
+
+class CheckReport : public test::CommandTest {
+ protected:
+  CheckReport() { write("two.toml", two_disks); }
+  std::string said(const std::string& options) const {
+    const Outcome o = carom("check two.toml " + options);
+    EXPECT_EQ(o.status, 0) << o.err;
+    return o.err + o.out;
+  }
+  Json json(const std::string& options, const std::string& scene = "two.toml", const std::string& before = "") const {
+    const Outcome o = shell(before + "$C check " + scene + " --json " + options);
+    EXPECT_EQ(o.status, 0) << o.err;
+    return Json::parse(o.out);
+  }
+};
+
+TEST_F(CheckReport, ThePhysicsIsInWords) {
+  EXPECT_THAT(said(""), HasSubstr("mass 1 to 3\n"));
+  EXPECT_THAT(said(""), HasSubstr("gravity 1 downwards; elastic collisions, at walls too\n"));
+  EXPECT_THAT(said("--set 'physics.gravity=[0.5, -2]'"), HasSubstr("gravity [0.5, -2]; "));
+  EXPECT_THAT(said("--set 'physics.gravity=[0, 2]'"), HasSubstr("gravity [0, 2]; ")) << "upwards";
+  EXPECT_THAT(said("--set physics.restitution=0.5"), HasSubstr("; restitution 0.5 of disks, 1 at walls\n"));
+  EXPECT_THAT(said("--set box.wall_restitution=0.5"), HasSubstr("; elastic collisions, 0.5 at walls\n"));
+}
+
+TEST_F(CheckReport, WhatALongStepLeadsToIsTold) {
+  EXPECT_THAT(said("--dt 0.5 --set 'disks.0.velocities=[[1, 0]]'"), HasSubstr("safe step: steps will be split; take"));
+  const std::string fast = said("--dt 0.5 --set 'disks.0.velocities=[[1e4, 0]]'");
+  EXPECT_THAT(fast, HasSubstr("safe step: the run will stop at once, with status 3; take"));
+}
+
+TEST_F(CheckReport, WhatARunWouldWarnOfIsSaid) {
+  EXPECT_THAT(said("--set 'box.left={ motion = { vibrate = [0.01, 0.0], period = 0.001 } }'"),
+              HasSubstr("carom: warning: a wall vibrates with a period of 0.001"));
+  EXPECT_THAT(said("--set physics.restitution=0.9 --set 'physics.collapse={ model = \"tc\", contact_time = 1e-3 }'"),
+              HasSubstr("carom: warning: two.toml: physics.collapse"));
+}
+
+// Of n draws the fastest has m v^2 / 2 = T ln n: mass 4, temperature 2, and nine disks before the end.
+TEST_F(CheckReport, HeavyDisksOfAHotSourceAreSlow) {
+  write("source.toml", R"([box]
+width = 100.0
+height = 100.0
+[[sources]]
+side = "left"
+rate = 1.0
+radius = 0.25
+mass = 4.0
+velocities = { maxwell = 2.0 }
+[run]
+method = "pairwise"
+dt = 0.001
+t_end = 10.0
+)");
+  EXPECT_NEAR(json("", "source.toml")["safe_dt"].get<double>(), 0.125 / std::sqrt(std::log(9.0)), 1e-9);
+}
+
+// A wall that is not level is another one as it moves across the box.
+TEST_F(CheckReport, AWallThatMovesAlongItselfDoesNothing) {
+  const std::string wall =
+      "--set physics.gravity=0.0 --set box.left='\"periodic\"' --set box.right='\"periodic\"' --set "
+      "'walls=[{ points = [[0, 5], [10, HEIGHT]], motion = { velocity = [1.0, 0.0] } }]'";
+  const auto with_end_at = [&](const std::string& height) {
+    return said(std::string(wall).replace(wall.find("HEIGHT"), 6, height));
+  };
+  EXPECT_THAT(with_end_at("5"), HasSubstr("walls.0 moves along itself and is smooth"));
+  EXPECT_THAT(with_end_at("6"), Not(HasSubstr("moves along itself")));
+}
+
+// Where nothing can be written on trial.
+TEST_F(CheckReport, FilesAreGuessed) {
+  const std::string all = "--set output.series=true --set output.movie=true --set output.trajectory='\"xyz\"'";
+  const Json light = json(all + " --set output.select='\"light\"'", "two.toml", "TMPDIR=/nonexistent ")["files_bytes"];
+  const Json both = json(all, "two.toml", "TMPDIR=/nonexistent ")["files_bytes"];
+  for (const char* const file : {"series.csv", "movie.mp4", "trajectory.xyz"})
+    EXPECT_TRUE(light.contains(file)) << file;
+  EXPECT_EQ(2.0 * light["trajectory.xyz"].get<double>(), both["trajectory.xyz"].get<double>());
+}
+
+TEST_F(CheckReport, ACheckpointKeepsTheRoundsOfTrajectories) {
+  const auto bytes = [&](const std::string& sides, const std::string& format) {
+    return json("--set output.checkpoint=1000 --set output.trajectory='\"" + format + "\"' --set box.left='\"" + sides +
+                "\"' --set box.right='\"" + sides + "\"'")["files_bytes"]["checkpoint.carom"]
+        .get<double>();
+  };
+  EXPECT_EQ(bytes("periodic", "xyz"), bytes("wall", "xyz") + 2 * 8.0);
+  EXPECT_EQ(bytes("periodic", "none"), bytes("wall", "none"));
+}
+
+TEST_F(CheckReport, EveryPartOfTheCostIsThere) {
+  const Json j = json(
+      "--set output.view=true --set output.trajectory='\"h5md\"' --set output.every=1e-7 --method exact "
+      "--set 'analysis.what=[\"speeds\"]'");
+  EXPECT_EQ(j["files_bytes"]["view.html"], 64e6) << "which it is not to exceed";
+  EXPECT_GT(j["cost_parts_s"]["start"], 0.0);
+  EXPECT_GT(j["cost_parts_s"]["analysis"], 0.0);
+  EXPECT_GT(j["memory_bytes"], 4e6) << "no process has less";
+}
+
+}  // namespace
+}  // namespace carom
