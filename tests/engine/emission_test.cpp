@@ -1,0 +1,107 @@
+// What a source draws, and what it counts on: places along a side, speeds that know nothing of each other, rates of
+// sources that have more, the largest disk to come.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/base/check.hpp"
+#include "core/scene/scene_ranges.hpp"
+#include "core/step/source.hpp"
+#include "tests/support/disks_by_hand.hpp"
+
+namespace carom {
+namespace {
+
+constexpr double radius = 0.5, width = 30.0, height = 20.0;
+
+// Disks of mass 4 through the left side.
+Scene scene_with_source() {
+  Scene s = test::scene_of(Method::pairwise, width, height, 0.1, 1.0);
+  Source source;
+  source.rate = 2.0;
+  source.radius.value = radius;
+  source.mass.value = 4.0;
+  source.side = Side::left;
+  source.velocities.kind = VelocityLaw::Kind::maxwell;
+  source.velocities.temperature = 2.0;
+  s.sources = {source};
+  return s;
+}
+
+// Across periodic sides, and clear of walls.
+TEST(EmissionPlace, IsAnywhereAlongTheSide) {
+  for (const bool periodic_y : {false, true}) {
+    Scene s = scene_with_source();
+    const SideKind along = periodic_y ? SideKind::periodic : SideKind::wall;
+    s.box.sides[static_cast<std::size_t>(Side::bottom)] = s.box.sides[static_cast<std::size_t>(Side::top)] = along;
+    double lowest = height, highest = 0.0;
+    for (DiskId id = 0; id < 5000; ++id) {
+      const double y = draw_emission(s, s.box, 0, id, id, 0).y;
+      lowest = std::min(lowest, y);
+      highest = std::max(highest, y);
+    }
+    const double margin = periodic_y ? 0.0 : radius;
+    EXPECT_TRUE(lowest >= margin && lowest < margin + 0.1) << lowest;
+    EXPECT_TRUE(highest <= height - margin && highest > height - margin - 0.1) << highest;
+  }
+}
+
+// Of a Rayleigh deviate and a normal one the second is the larger in absolute value in 1 - 1 / sqrt(2) of all draws.
+TEST(EmissionSpeed, AlongTheSideKnowsNothingOfThatThroughIt) {
+  const Scene s = scene_with_source();
+  constexpr int n = 20000;
+  int slanting = 0;
+  for (DiskId id = 0; id < n; ++id) {
+    const Disk d = draw_emission(s, s.box, 0, id, id, 3);
+    slanting += std::abs(d.vy) > d.vx ? 1 : 0;
+  }
+  const double share = 1.0 - std::numbers::sqrt2 / 2.0;
+  EXPECT_NEAR(static_cast<double>(slanting) / n, share, 4.0 * std::sqrt(share * (1.0 - share) / n));
+}
+
+TEST(EmissionRate, IsOfThoseThatHaveMore) {
+  Scene s = scene_with_source();
+  s.sources.push_back(s.sources.front());
+  s.sources[0].limit = 10;
+  State state;
+  state.sources = {{9}, {1000}};
+  EXPECT_EQ(emission_rate(s, state), 4.0);
+  state.sources[0].emitted = 10;
+  EXPECT_EQ(emission_rate(s, state), 2.0);
+}
+
+TEST(LargestOfASource, FollowsFromItsMassWhereItsRadiusDoes) {
+  Source source = scene_with_source().sources.front();
+  EXPECT_EQ(largest_radius_of(source), radius);
+  source.mass.value = 9.0 * std::numbers::pi;
+  source.radius.kind = SizeLaw::Kind::from_other;
+  source.radius.density = 4.0;
+  EXPECT_NEAR(largest_radius_of(source), 1.5, 1e-12);
+}
+
+// A disk that is due at the end itself comes no more.
+TEST(EmissionsDue, BeforeATimeAreThoseOfEarlierOnes) {
+  Source source;
+  source.rate = 2.0;
+  EXPECT_EQ(due_by(source, 5.0), 10U);
+  EXPECT_EQ(due_before(source, 5.0), 9U);
+  EXPECT_EQ(due_before(source, 5.1), 10U);
+  source.limit = 4;
+  EXPECT_EQ(due_before(source, 5.0), 4U);
+}
+
+TEST(EmissionIds, HaveAnEnd) {
+  const Scene s = scene_with_source();
+  const auto room = [](const Disk&) { return true; };
+  State state;
+  state.sources.resize(1);
+  state.next_id = static_cast<DiskId>(most_disks - 1);
+  EXPECT_NO_THROW(emit_from_source(s, s.box, state, 0, 1, 0, {}, room));
+  EXPECT_THROW(emit_from_source(s, s.box, state, 0, 2, 0, {}, room), PhysicsError);
+  EXPECT_EQ(state.disks.size(), 1U);
+}
+
+}  // namespace
+}  // namespace carom
