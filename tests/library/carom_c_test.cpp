@@ -68,6 +68,14 @@ TEST(CaromC, HasTheBitsOfASimulation) {
   }
 }
 
+// As a part of a larger text, or of a file that is mapped.
+TEST(CaromC, ATextIsAsLongAsItIsSaidToBe) {
+  const std::string longer = std::string(gas) + "no TOML";
+  const World world = World::from_text(std::string_view(longer).substr(0, gas.size()));
+  EXPECT_EQ(world.disks().size(), 200U);
+  EXPECT_THROW(World::from_text(longer), carom::Error);
+}
+
 TEST(CaromC, StructAndTextAreTheSameScene) {
   carom_scene scene = box();
   scene.left = scene.right = CAROM_PERIODIC;
