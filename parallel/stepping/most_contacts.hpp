@@ -18,7 +18,7 @@ inline constexpr std::size_t most_contacts = std::numeric_limits<std::uint32_t>:
 inline constexpr std::size_t most_disks_of_pile = (std::size_t{1} << 31U) - (std::size_t{1} << 20U);
 
 // Throws RunError where there are more. what: contacts, say.
-inline void check_numbered(std::size_t count, std::size_t most, const std::string& what) {
+inline void check_numbered(std::size_t count, std::size_t most, const char* what) {
   if (count <= most) return;
   throw RunError("pairwise: " + std::to_string(count) + " " + what + " are more than one process can number, " +
                  std::to_string(most) + "; run it on several ranks");
