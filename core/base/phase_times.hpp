@@ -17,8 +17,8 @@ struct Phase {
 // Phases in the order in which they first ran.
 class PhaseTimes {
  public:
-  // From here on add() takes no memory: a timer that ends must not fail, as what ends it may be that there is none.
-  void make_room() {
+  // add() takes no memory then: a timer that ends must not fail, as what ends it may be that there is none.
+  PhaseTimes() {
     constexpr std::size_t more_than_there_are = 32;
     phases_.reserve(more_than_there_are);
   }
@@ -40,7 +40,7 @@ class PhaseTimes {
 // Adds the time from construction to destruction to one phase.
 class PhaseTimer {
  public:
-  PhaseTimer(PhaseTimes& times, std::string_view name) : times_(times), name_(name) { times_.make_room(); }
+  PhaseTimer(PhaseTimes& times, std::string_view name) : times_(times), name_(name) {}
   PhaseTimer(const PhaseTimer&) = delete;
   PhaseTimer& operator=(const PhaseTimer&) = delete;
   ~PhaseTimer() { times_.add(name_, seconds_since(start_)); }

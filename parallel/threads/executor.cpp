@@ -6,6 +6,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <bit>
 #include <optional>
 
 #include "core/base/float_environment.hpp"
@@ -61,6 +62,15 @@ Executor::Executor(int threads, std::size_t block_divisor)
       arena_(threads_ > 1 ? std::make_unique<Arena>(threads_) : nullptr) {}
 
 Executor::~Executor() = default;
+
+std::size_t Executor::block_size(std::size_t n, std::size_t block) const {
+  constexpr std::size_t least_large = 4096;
+  constexpr std::size_t most_few = 8;
+  const std::size_t size = grain(block);
+  if (size < least_large || n <= size || n > most_few * size) return size;
+  const std::size_t shares = std::bit_ceil(blocks_of(n, size));
+  return (n + shares - 1) / shares;
+}
 
 void Executor::share_out(std::size_t blocks, Sharing sharing, Call call, void* task) const {
   ForkJoin order;

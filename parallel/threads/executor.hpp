@@ -5,7 +5,6 @@
 #include <oneapi/tbb/parallel_sort.h>
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -30,18 +29,9 @@ class Executor {
   // The block size to use where `block` items are the usual one.
   std::size_t grain(std::size_t block) const { return std::max<std::size_t>(1, block / divisor_); }
   // The one for n items in all: a few large blocks are alike, and a power of two, for threads to share evenly.
-  std::size_t block_size(std::size_t n, std::size_t block) const {
-    const std::size_t size = grain(block);
-    const std::size_t usual = (n + size - 1) / size;
-    if (size < least_large || usual <= 1 || usual > most_few) return size;
-    const std::size_t shares = std::bit_ceil(usual);
-    return (n + shares - 1) / shares;
-  }
+  std::size_t block_size(std::size_t n, std::size_t block) const;
   // How many blocks of that size n items make.
-  std::size_t blocks(std::size_t n, std::size_t block) const {
-    const std::size_t size = block_size(n, block);
-    return (n + size - 1) / size;
-  }
+  std::size_t blocks(std::size_t n, std::size_t block) const { return blocks_of(n, block_size(n, block)); }
 
   // task(b) for b = 0 .. blocks - 1. Allocates nothing of its own.
   template <class Task>
@@ -60,7 +50,7 @@ class Executor {
   template <class Task>
   void for_ranges(std::size_t n, std::size_t block, Task&& task) const {
     const std::size_t size = block_size(n, block);
-    run_alike(blocks(n, block), [&](std::size_t b) { task(b, b * size, std::min(n, (b + 1) * size)); });
+    run_alike(blocks_of(n, size), [&](std::size_t b) { task(b, b * size, std::min(n, (b + 1) * size)); });
   }
 
   // std::sort's result for a total order without equal items, whatever the number of threads.
@@ -68,10 +58,9 @@ class Executor {
   void sort(Iterator begin, Iterator end, Less less) const;
 
  private:
-  static constexpr std::size_t least_large = 4096;
-  static constexpr std::size_t most_few = 8;
   // With more of them, those that come first are worth more than those whose data are near.
   static constexpr std::size_t most_alike = 4;
+  static std::size_t blocks_of(std::size_t n, std::size_t size) { return (n + size - 1) / size; }
   using Call = void (*)(void*, std::size_t);
   enum class Sharing : std::uint8_t { as_they_come, alike };
   template <class Task>
