@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "core/base/check.hpp"
+#include "core/load/scene_file.hpp"
+#include "core/start/initial_state.hpp"
 #include "core/step/engine.hpp"
 #include "parallel/simulation.hpp"
 #include "tests/support/feature_scenes.hpp"
@@ -160,6 +162,38 @@ TEST(ParallelBlocks, OfAnySizeGiveTheSameBits) {
   for (const std::size_t divisor : {1U, 7U, 64U, 1000U, 100000U}) {
     SCOPED_TRACE(divisor);
     expect_same(expected, trace_of(*make_parallel_engine(scene, start, {3, divisor}), scene.run.t_end));
+  }
+}
+
+// Uncut, 20,000 disks are four blocks of 5000, which threads share out alike in all phases (Executor).
+TEST(ParallelBlocks, AFewLargeOnesGiveTheBitsOfTheReference) {
+  const Scene scene = parse_scene(R"(
+    [box]
+    width = 200.0
+    height = 120.0
+    left = "periodic"
+    right = "periodic"
+    [physics]
+    gravity = 1.0
+    restitution = 0.8
+    [[disks]]
+    count = 20000
+    positions = "square"
+    velocities = { maxwell = 1.0 }
+    radius = { uniform = [0.3, 0.5] }
+    mass = 1.0
+    [run]
+    method = "pairwise"
+    dt = 0.02
+    t_end = 0.24
+  )",
+                                  "large", "");
+  const State start = initial_state(scene);
+  const Trace expected = trace_of(*make_reference_engine(scene, start), scene.run.t_end);
+  EXPECT_GT(expected.counters.collisions, 1000U);
+  for (const int threads : test::thread_counts) {
+    SCOPED_TRACE(threads);
+    expect_same(expected, trace_of(*make_parallel_engine(scene, start, {threads}), scene.run.t_end));
   }
 }
 
