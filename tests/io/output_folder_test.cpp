@@ -389,34 +389,5 @@ TEST_F(OutputFolderTest, TheNextFreeFolderIsTaken) {
   EXPECT_THROW(free_output_folder(base_ / "out-3", input), InputError) << "a file is no folder of an earlier run";
 }
 
-TEST_F(OutputFolderTest, AFileIsGoneOnWithToTheByte) {
-  const std::string file = base_ / "series.csv";
-  write_file(file, "12345");
-  { OutputFile(file, 3).write("x"); }
-  EXPECT_EQ(text(file), "123x");
-  { OutputFile whole(file, 4); }
-  EXPECT_EQ(text(file), "123x");
-  try {
-    const OutputFile longer(file, 5);
-    FAIL() << "no error";
-  } catch (const InputError& e) {
-    EXPECT_STREQ(e.what(), (file + ": has 4 bytes; expected 5 or more, as when the checkpoint was made").c_str());
-  }
-  EXPECT_EQ(text(file), "123x") << "nothing is touched";
-  for (const std::uint64_t bytes : {0U, 5U}) EXPECT_THROW(OutputFile(base_ / "none.csv", bytes), InputError) << bytes;
-  EXPECT_FALSE(fs::exists(base_ / "none.csv"));
-  EXPECT_NO_THROW(check_at_least(base_, 0)) << "a folder, as that of a movie's frames";
-}
-
-// What fits into the buffer is written when the file is closed.
-TEST_F(OutputFolderTest, AFullDiskIsSeenWhenAFileIsClosed) {
-  EXPECT_THROW(write_file("/dev/full", "a"), RunError);
-  OutputFile file("/dev/full");
-  file.write("a");
-  EXPECT_THROW(file.flush(), RunError);
-  OutputFile large("/dev/full");
-  EXPECT_THROW(large.write(std::string(1'000'000, 'a')), RunError) << "more than the buffer takes";
-}
-
 }  // namespace
 }  // namespace carom

@@ -1,0 +1,50 @@
+// Files of results: what is written is there when they are closed, or the run hears of it.
+#include "io/files/output_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "core/base/check.hpp"
+#include "tests/support/test_folder.hpp"
+
+namespace carom {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(OutputFile, IsGoneOnWithToTheByte) {
+  const test::TestFolder folder("carom_file_gone_on_with");
+  const fs::path base = folder.path();
+  const std::string file = base / "series.csv";
+  write_file(file, "12345");
+  { OutputFile(file, 3).write("x"); }
+  EXPECT_EQ(test::text_of(file), "123x");
+  { OutputFile whole(file, 4); }
+  EXPECT_EQ(test::text_of(file), "123x");
+  try {
+    const OutputFile longer(file, 5);
+    FAIL() << "no error";
+  } catch (const InputError& e) {
+    EXPECT_STREQ(e.what(), (file + ": has 4 bytes; expected 5 or more, as when the checkpoint was made").c_str());
+  }
+  EXPECT_EQ(test::text_of(file), "123x") << "nothing is touched";
+  for (const std::uint64_t bytes : {0U, 5U}) EXPECT_THROW(OutputFile(base / "none.csv", bytes), InputError) << bytes;
+  EXPECT_FALSE(fs::exists(base / "none.csv"));
+  EXPECT_NO_THROW(check_at_least(base, 0)) << "a folder, as that of a movie's frames";
+}
+
+// What fits into the buffer is written when the file is closed.
+TEST(OutputFile, AFullDiskIsSeenWhenItIsClosed) {
+  EXPECT_THROW(write_file("/dev/full", "a"), RunError);
+  OutputFile file("/dev/full");
+  file.write("a");
+  EXPECT_THROW(file.flush(), RunError);
+  OutputFile large("/dev/full");
+  EXPECT_THROW(large.write(std::string(1'000'000, 'a')), RunError) << "more than the buffer takes";
+}
+
+}  // namespace
+}  // namespace carom
