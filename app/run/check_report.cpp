@@ -35,13 +35,13 @@ std::string sides_text(const Domain& box) {
   return text;
 }
 
-// " at speeds up to 2, accelerations up to 8, 0.8 of gravity's": below 1 of it, what lies on a wall that goes up and
+// " at speeds up to 2, accelerations up to 8, 0.8 times gravity's": below 1 of it, what lies on a wall that goes up and
 // down stays there.
 std::string motion_text(double speed, double acceleration, double gravity) {
   std::string text = fmt::format(" at speeds up to {:.3g}", speed);
   if (acceleration == 0.0) return text;
   text += fmt::format(", accelerations up to {:.3g}", acceleration);
-  return gravity > 0.0 ? text + fmt::format(", {:.3g} of gravity's", acceleration / gravity) : text;
+  return gravity > 0.0 ? text + fmt::format(", {:.3g} times gravity's", acceleration / gravity) : text;
 }
 
 // All inner walls that move; empty: none.

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 TEST(OutputFile, IsGoneOnWithToTheByte) {
   const test::TestFolder folder("carom_file_gone_on_with");
-  const fs::path base = folder.path();
+  const fs::path& base = folder.path();
   const std::string file = base / "series.csv";
   write_file(file, "12345");
   { OutputFile(file, 3).write("x"); }

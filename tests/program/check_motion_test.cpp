@@ -25,7 +25,7 @@ class CheckOfMotion : public test::CommandTest {
 TEST_F(CheckOfMotion, AFloorThatVibratesIsHeldAgainstGravity) {
   const std::string floor = "bottom = { motion = { vibrate = [0.0, 0.5], period = 2.0 } }\n";
   EXPECT_THAT(report(floor + "[physics]\ngravity = 5.0\n", ""),
-              HasSubstr("the bottom wall moves at speeds up to 2, accelerations up to 4, 0.8 of gravity's"));
+              HasSubstr("the bottom wall moves at speeds up to 2, accelerations up to 4, 0.8 times gravity's"));
   EXPECT_THAT(report(floor, ""), HasSubstr("the bottom wall moves at speeds up to 2, accelerations up to 4, 1 at"));
 }
 
