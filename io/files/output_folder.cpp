@@ -342,9 +342,7 @@ OutputFolder::~OutputFolder() {
 void OutputFolder::lock() {
   bool another = false;
   lock_ = take_lock(unfinished_, another);
-  if (!another) return;
-  done_ = true;  // it is not ours to remove
-  fail_locked(folder_);
+  if (another) fail_locked(folder_);
 }
 
 void OutputFolder::take_back(bool finished, const std::vector<std::string>& files) {
