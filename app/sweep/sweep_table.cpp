@@ -17,12 +17,13 @@ constexpr std::array<const char*, 18> table_keys{
     "particles",    "steps",          "time",        "collisions",   "wall_collisions", "energy_initial",
     "energy_final", "momentum_drift", "max_overlap", "wall_overlap", "pressure",        "collision_rate",
     "removed",      "emitted",        "waiting",     "warnings",     "step_s",          "state_hash"};
-// What only some scenes have; of sides an object.
-constexpr std::array<const char*, 5> energy_keys{"heat", "thermostat_heat", "work", "wall_work", "shear_work"};
+// What only some scenes have; of sides and sinks an object.
+constexpr std::array<const char*, 6> special_keys{"removed_by", "heat",      "thermostat_heat",
+                                                  "work",       "wall_work", "shear_work"};
 
-struct EnergyColumn {
-  std::string key, side;  // side: empty where the summary has a number
-  bool operator==(const EnergyColumn&) const = default;
+struct SpecialColumn {
+  std::string key, part;  // part: a side or sink; empty where the summary has a number
+  bool operator==(const SpecialColumn&) const = default;
 };
 
 std::string cell_of(const Json& value) {
@@ -40,17 +41,17 @@ std::string csv_cell(const std::string& value) {
 }
 
 // Those that any run has.
-std::vector<EnergyColumn> energy_columns(const std::vector<SweepRow>& rows) {
-  std::vector<EnergyColumn> columns;
-  const auto add = [&](const EnergyColumn& column) {
+std::vector<SpecialColumn> special_columns(const std::vector<SweepRow>& rows) {
+  std::vector<SpecialColumn> columns;
+  const auto add = [&](const SpecialColumn& column) {
     if (std::find(columns.begin(), columns.end(), column) == columns.end()) columns.push_back(column);
   };
-  for (const char* const key : energy_keys) {
+  for (const char* const key : special_keys) {
     for (const SweepRow& row : rows) {
       const auto value = row.summary.find(key);
       if (value == row.summary.end()) continue;
       if (value->is_object()) {
-        for (const auto& side : value->items()) add({key, side.key()});
+        for (const auto& part : value->items()) add({key, part.key()});
       } else {
         add({key, ""});
       }
@@ -59,25 +60,25 @@ std::vector<EnergyColumn> energy_columns(const std::vector<SweepRow>& rows) {
   return columns;
 }
 
-std::string table_head(const std::vector<SweepAxis>& axes, const std::vector<EnergyColumn>& energies) {
+std::string table_head(const std::vector<SweepAxis>& axes, const std::vector<SpecialColumn>& specials) {
   std::string text = "run";
   for (const SweepAxis& axis : axes) text += "," + axis.key;
   text += ",seed";
   for (const char* const key : table_keys) text += fmt::format(",{}", key);
-  for (const EnergyColumn& e : energies) text += fmt::format(",{}{}{}", e.key, e.side.empty() ? "" : "_", e.side);
+  for (const SpecialColumn& c : specials) text += fmt::format(",{}{}{}", c.key, c.part.empty() ? "" : "_", c.part);
   return text + '\n';
 }
 
-std::string table_row(const SweepRow& row, std::size_t axes, const std::vector<EnergyColumn>& energies) {
+std::string table_row(const SweepRow& row, std::size_t axes, const std::vector<SpecialColumn>& specials) {
   const std::vector<Override>& changes = row.run->overrides;
   std::string text = row.run->name;
   for (auto change = changes.end() - static_cast<std::ptrdiff_t>(axes + 1); change != changes.end(); ++change) {
     text += "," + csv_cell(change->value);
   }
   for (const char* const key : table_keys) text += "," + cell_of(row.summary.value(key, Json()));
-  for (const EnergyColumn& e : energies) {
-    const Json value = row.summary.value(e.key, Json());
-    text += "," + cell_of(e.side.empty() || !value.is_object() ? value : value.value(e.side, Json()));
+  for (const SpecialColumn& c : specials) {
+    const Json value = row.summary.value(c.key, Json());
+    text += "," + cell_of(c.part.empty() || !value.is_object() ? value : value.value(c.part, Json()));
   }
   return text + "\n";
 }
@@ -85,9 +86,9 @@ std::string table_row(const SweepRow& row, std::size_t axes, const std::vector<E
 }  // namespace
 
 std::string sweep_table(const std::vector<SweepAxis>& axes, const std::vector<SweepRow>& rows) {
-  const std::vector<EnergyColumn> energies = energy_columns(rows);
-  std::string text = table_head(axes, energies);
-  for (const SweepRow& row : rows) text += table_row(row, axes.size(), energies);
+  const std::vector<SpecialColumn> specials = special_columns(rows);
+  std::string text = table_head(axes, specials);
+  for (const SweepRow& row : rows) text += table_row(row, axes.size(), specials);
   return text;
 }
 

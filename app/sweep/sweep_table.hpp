@@ -17,7 +17,7 @@ struct SweepRow {
 };
 
 // A line of names: the run, the keys of the sweep, the seed, and what each row takes from a summary; then a line a run.
-// Heat and work have columns where a run has them, those of sides one a side: heat_left.
+// Heat, work and what each sink took have columns where a run has them, one a side or sink: heat_left.
 std::string sweep_table(const std::vector<SweepAxis>& axes, const std::vector<SweepRow>& rows);
 
 }  // namespace carom

@@ -110,8 +110,9 @@ std::string range_rows() {
 std::string series_rows() {
   std::string text =
       "\n## Columns of series.csv\n\n`series = true` in `[output]` writes one row a frame; trajectory.h5 has the same "
-      "under `/observables`, without `displacement`, heat and work of sides, what inner walls and a thermostat "
-      "give, and what there is only with `shear_rate`. Numbers have all digits that they need to be read back as they "
+      "under `/observables`, without `displacement`, what each sink took, heat and work of sides, what inner walls "
+      "and a thermostat give, and what there is only with `shear_rate`. Numbers have all digits that they need to be "
+      "read back as they "
       "were. The state of a row "
       "is that of its time; what is counted or summed since the start, and means since the row before, are up to the "
       "end of the step or window that this time lies in, with `exact` about two collisions a disk later at most (32 in "
@@ -124,6 +125,8 @@ std::string series_rows() {
   text += fmt::format(
       "| `{}` | length^2 | mean square displacement since the first sample, where `[analysis]` asks for it |\n",
       displacement_column);
+  text += fmt::format("| `{}_left`, likewise of other sides, and `{}_walls.0`, ... | {} | {}; a column a sink |\n",
+                      taken_column.name, taken_column.name, taken_column.unit, taken_column.meaning);
   text += fmt::format("| `{}_left`, likewise `_right`, `_bottom`, `_top` | {} | {}; a column a thermal side |\n",
                       heat_column.name, heat_column.unit, heat_column.meaning);
   text += fmt::format("| `{}_left`, likewise | {} | {}; a column a side that moves |\n", work_column.name,

@@ -8,6 +8,7 @@
 #include "core/disks/disks.hpp"
 #include "core/disks/obstacle.hpp"
 #include "core/disks/overlap.hpp"
+#include "core/disks/sink_counts.hpp"
 
 namespace carom {
 
@@ -84,6 +85,7 @@ struct State {
                                      // or kicks of a thermostat
   bool step_begun = false;           // pairwise: the coming step failed after its sources and Brownian draws
   std::vector<SourceState> sources;  // one per scene source
+  SinkCounts taken;                  // by each sink, together Counters::removed; an entry for each, or none without
   std::vector<ContactLoad> loads;    // in order of (id1, id2); empty unless the scene settles
   StallWatch stall;                  // rollback, exact
   ValidityCounts validity;           // counted on in a run that is taken up again, so that it warns of the same

@@ -6,6 +6,7 @@
 
 #include "core/disks/disk_view.hpp"
 #include "core/disks/domain.hpp"
+#include "core/disks/sink_counts.hpp"
 #include "core/physics/boundary.hpp"
 #include "core/physics/contact_event.hpp"
 #include "core/physics/disk_pair.hpp"
@@ -89,10 +90,18 @@ double reach_beyond_wall(const View& d, const Domain& box, std::uint32_t i, Disk
   return reach_beyond_wall(wall_side(partner), d.x[i], d.y[i], d.radius(i), box);
 }
 
-// Does what stands for a wall in a contact take disks away?
+// Which sink what stands for a wall in a contact is; no_sink, if it takes no disks away.
+inline SinkNumber sink_of(const Domain& box, DiskId partner) {
+  if (is_obstacle(partner)) {
+    const Obstacle& o = (*box.obstacles)[obstacle_of(partner)];
+    return o.kind == ObstacleKind::sink ? sink_number(o) : no_sink;
+  }
+  const Side side = wall_side(partner);
+  return box.side(side) == SideKind::sink ? sink_number(side) : no_sink;
+}
+
 inline bool is_sink(const Domain& box, DiskId partner) {
-  if (is_obstacle(partner)) return (*box.obstacles)[obstacle_of(partner)].kind == ObstacleKind::sink;
-  return box.side(wall_side(partner)) == SideKind::sink;
+  return sink_of(box, partner) != no_sink;
 }
 
 // A sink that lies along a wall, or before it, is an opening in it: disk i meets walls only that it lies in by more

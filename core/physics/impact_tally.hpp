@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/exact_sum.hpp"
+#include "core/disks/sink_counts.hpp"
 #include "core/disks/state.hpp"
 #include "core/physics/contact_event.hpp"
 #include "core/physics/resolve.hpp"
@@ -27,6 +28,7 @@ struct ImpactTally {
   std::vector<ExactSum> pushes;   // of inner walls that move: work, momentum along x and y; empty where none did any
   std::vector<ExactSum> shear;    // in a sheared box: PairImpact::shear_virial, and the work done; else empty
   std::vector<ExactSum> absence;  // one: of each disk that a sink took, the rest of the window; empty where none did
+  SinkCounts taken;               // how many each sink took; likewise
 
   // partner: the second disk's id, or a wall_partner.
   void add(DiskId partner, const Impact& impact) {
@@ -95,9 +97,10 @@ struct ImpactTally {
   }
 
   // A sink took a disk, so long before the window's end.
-  void add_absence(double rest) {
+  void add_taken(SinkNumber sink, double rest) {
     absence.resize(1);
     absence[0].add(rest);
+    count_taken(taken, sink);
   }
 
   // A collision of two disks.
@@ -145,6 +148,7 @@ struct ImpactTally {
     add_each(other.pushes, pushes);
     add_each(other.shear, shear);
     add_each(other.absence, absence);
+    carom::add(taken, other.taken);
   }
 
   Count all_inaccurate() const { return inaccurate + inaccurate_at_walls; }

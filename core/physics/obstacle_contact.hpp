@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "core/disks/obstacle_cells.hpp"
+#include "core/disks/sink_counts.hpp"
 #include "core/disks/wall_motion.hpp"
 #include "core/physics/advance.hpp"
 #include "core/physics/disk_pair.hpp"
@@ -231,14 +232,19 @@ inline bool touches_obstacle(const Domain& box, double x, double y, double r) {
   return touched;
 }
 
-// Does it touch one that takes disks away?
-inline bool touches_inner_sink(const Domain& box, double x, double y, double r) {
-  bool touched = false;
-  if (box.obstacles == nullptr || !box.obstacles->has_sinks()) return false;
+// Which of those that take disks away it touches, the first of several; no_sink if none.
+inline SinkNumber inner_sink_touched(const Domain& box, double x, double y, double r) {
+  SinkNumber sink = no_sink;
+  if (box.obstacles == nullptr || !box.obstacles->has_sinks()) return sink;
   for_each_obstacle_touched(box, x, y, r, [&](std::uint32_t k, const ObstacleGap&) {
-    touched = touched || (*box.obstacles)[k].kind == ObstacleKind::sink;
+    const Obstacle& o = (*box.obstacles)[k];
+    if (o.kind == ObstacleKind::sink) sink = std::min(sink, sink_number(o));
   });
-  return touched;
+  return sink;
+}
+
+inline bool touches_inner_sink(const Domain& box, double x, double y, double r) {
+  return inner_sink_touched(box, x, y, r) != no_sink;
 }
 
 // Speed towards the obstacle, in its frame; > 0: the disk moves into it.

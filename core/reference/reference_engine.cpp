@@ -6,6 +6,7 @@
 #include "core/reference/reference_exact.hpp"
 #include "core/reference/reference_pairwise.hpp"
 #include "core/reference/reference_rollback.hpp"
+#include "core/reference/remove_taken.hpp"
 #include "core/step/source.hpp"
 #include "core/step/step_clock.hpp"
 #include "core/step/step_start.hpp"
@@ -38,13 +39,13 @@ void ReferenceEngine::start_interval(double t, double dt, Count step) {
   const PhaseTimer timer(times_, "start");
   emit_due(scene_, state_, t, step, [&](const Disk& disk) { return has_room(state_.disks, scene_.box, disk); });
   if (!(scene_.physics.diffusion > 0.0)) return;
-  std::vector<unsigned char> gone(state_.disks.size(), 0);
+  std::vector<SinkNumber> taken_by(state_.disks.size(), no_sink);
   with_view(state_.disks, [&](const auto& d) {
     draw_brownian(d, scene_, step, dt, 0, state_.disks.size());
     if (!has_brownian_sink(scene_)) return;
-    for (std::size_t i = 0; i < gone.size(); ++i) gone[i] = crosses_sink(d, scene_, step, dt, i) ? 1 : 0;
+    for (std::size_t i = 0; i < taken_by.size(); ++i) taken_by[i] = sink_crossed(d, scene_, step, dt, i);
   });
-  remove(gone);
+  remove_taken(state_, taken_by);
 }
 
 void ReferenceEngine::kick_if_due() {
@@ -90,15 +91,11 @@ void ReferenceEngine::wrap_all() {
 void ReferenceEngine::remove_at_sinks() {
   if (!has_sinks(scene_.box)) return;
   const PhaseTimer timer(times_, "sinks");
-  std::vector<unsigned char> gone(state_.disks.size(), 0);
+  std::vector<SinkNumber> taken_by(state_.disks.size());
   with_view(state_.disks, [&](const auto& d) {
-    for (std::size_t i = 0; i < gone.size(); ++i) gone[i] = touches_sink(d, scene_.box, i) ? 1 : 0;
+    for (std::size_t i = 0; i < taken_by.size(); ++i) taken_by[i] = sink_touched(d, scene_.box, i);
   });
-  remove(gone);
-}
-
-void ReferenceEngine::remove(const std::vector<unsigned char>& gone) {
-  state_.counters.removed += remove_marked(state_.disks, gone);
+  remove_taken(state_, taken_by);
 }
 
 std::unique_ptr<Engine> make_reference_engine(const Scene& scene, State initial, CollisionLog* log) {

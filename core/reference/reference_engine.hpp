@@ -46,7 +46,6 @@ class ReferenceEngine : public Engine {
   std::vector<ContactEvent> events_;  // of the last search
 
  private:
-  void remove(const std::vector<unsigned char>& gone);
 };
 
 }  // namespace carom

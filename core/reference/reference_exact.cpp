@@ -7,6 +7,7 @@
 
 #include "core/physics/wall_overlap.hpp"
 #include "core/reference/reference_window.hpp"
+#include "core/reference/remove_taken.hpp"
 #include "core/step/source.hpp"
 #include "core/step/step_start.hpp"
 #include "core/step/thermostat.hpp"
@@ -108,15 +109,15 @@ class ReferenceExact final : public Engine {
     kick_if_due(scene_, state_);
     if (!brownian_interval_begins(scene_, state_)) return;
     const BrownianInterval interval = begin_brownian_interval(scene_, state_);
-    std::vector<unsigned char> gone(state_.disks.size(), 0);
+    std::vector<SinkNumber> taken_by(state_.disks.size(), no_sink);
     with_view(state_.disks, [&](const auto& d) {
-      draw_brownian(d, scene_, interval.number, interval.length, 0, gone.size());
+      draw_brownian(d, scene_, interval.number, interval.length, 0, taken_by.size());
       if (!has_brownian_sink(scene_)) return;
-      for (std::size_t i = 0; i < gone.size(); ++i) {
-        gone[i] = crosses_sink(d, scene_, interval.number, interval.length, i) ? 1 : 0;
+      for (std::size_t i = 0; i < taken_by.size(); ++i) {
+        taken_by[i] = sink_crossed(d, scene_, interval.number, interval.length, i);
       }
     });
-    state_.counters.removed += remove_marked(state_.disks, gone);
+    remove_taken(state_, taken_by);
   }
 
   // box: at the start of the window. Returns the work of the shear where the disk has left a sheared box.

@@ -127,9 +127,10 @@ class EventLoop {
       result_.tally.add_wall(e.id2, impact);
       lost_energy = impact.lost_energy;
     }
-    if (!pair && is_sink(rules_.box, e.id2)) {
+    const SinkNumber sink = pair ? no_sink : sink_of(rules_.box, e.id2);
+    if (sink != no_sink) {
       result_.gone[e.i1] = 1;
-      result_.tally.add_absence(plan_.length - e.time);
+      result_.tally.add_taken(sink, plan_.length - e.time);
     }
     begin_segment(e, e.i1, lost_energy);
     if (pair) begin_segment(e, e.i2, lost_energy);

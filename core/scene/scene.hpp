@@ -279,6 +279,11 @@ inline bool has_sinks(const Scene& scene) {
   return scene.box.has(SideKind::sink);
 }
 
+// How many sinks have a number (core/disks/sink_counts.hpp); 0 without a sink.
+inline std::size_t sink_numbers(const Scene& scene) {
+  return has_sinks(scene) ? all_sides.size() + scene.walls.size() : 0;
+}
+
 // May a collision of two disks, fixed ones included, lose energy?
 inline bool disks_dissipate(const Scene& scene) {
   const Surfaces& surfaces = scene.physics.surfaces;

@@ -284,6 +284,7 @@ State initial_state(const Scene& scene, const PlaceAtRandom& place, const Growth
   take_obstacles(scene, state);
   state.next_id = static_cast<DiskId>(n);
   state.sources.resize(scene.sources.size());
+  state.taken.resize(sink_numbers(scene));
   return state;
 }
 

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 #include "core/base/random.hpp"
 #include "core/disks/disk_view.hpp"
 #include "core/disks/obstacle_cells.hpp"
+#include "core/disks/sink_counts.hpp"
 #include "core/disks/state.hpp"
 #include "core/physics/advance.hpp"
 #include "core/physics/boundary.hpp"
@@ -96,12 +98,13 @@ double largest_travel2(const View& d, std::size_t begin, std::size_t end) {
   return largest;
 }
 
-// Does Brownian disk i cross a sink side during the coming step although both ends of its straight path are inside?
+// The sink that Brownian disk i crosses, a side, during the coming step although both ends of its straight path are
+// inside; no_sink if none.
 // Probability exp(-d1 d2 / (D dt)) with its distances from the side before and after (a Brownian bridge); without it
 // the side would seem 0.5826 sqrt(2 D dt) further out. Compared through the logarithm, which is deterministic; a disk
 // so far off that the least number would not do needs none.
 template <class View>
-bool crosses_sink(const View& d, const Scene& scene, Count step, double dt, std::size_t i) {
+SinkNumber sink_crossed(const View& d, const Scene& scene, Count step, double dt, std::size_t i) {
   constexpr double below_any_log = -37.0;  // uniforms are 2^-53 or more, their logarithms -36.74
   const double spread = scene.physics.diffusion * dt;
   for (Side side : all_sides) {
@@ -113,18 +116,28 @@ bool crosses_sink(const View& d, const Scene& scene, Count step, double dt, std:
     const auto stream = static_cast<Stream>(static_cast<std::uint32_t>(Stream::sink_crossing) +
                                             (static_cast<std::uint32_t>(side) << 8U));
     const double u = uniforms(scene.seed, stream, d.id[i], step).a;
-    if (deterministic_log(u) * spread < -(before * after)) return true;
+    if (deterministic_log(u) * spread < -(before * after)) return sink_number(side);
   }
-  return false;
+  return no_sink;
 }
 
-// Does disk i touch a sink, a side or an inner one?
+// The sink that disk i touches, of several that of the smallest number; no_sink if none.
 template <class View>
-bool touches_sink(const View& d, const Domain& box, std::size_t i) {
+SinkNumber sink_touched(const View& d, const Domain& box, std::size_t i) {
   for (Side side : all_sides) {
-    if (box.side(side) == SideKind::sink && reach_beyond(side, d.x[i], d.y[i], d.radius(i), box) >= 0.0) return true;
+    const bool sink = box.side(side) == SideKind::sink;
+    if (sink && reach_beyond(side, d.x[i], d.y[i], d.radius(i), box) >= 0.0) return sink_number(side);
   }
-  return touches_inner_sink(box, d.x[i], d.y[i], d.radius(i));
+  return inner_sink_touched(box, d.x[i], d.y[i], d.radius(i));
+}
+
+// Counts the disks i of [begin, end) with gone[i] != 0, each for the sink sink_of(i).
+template <class SinkOf>
+void count_gone(const std::vector<unsigned char>& gone, std::size_t begin, std::size_t end, SinkCounts& taken,
+                SinkOf&& sink_of) {
+  for (std::size_t i = begin; i < end; ++i) {
+    if (gone[i] != 0) count_taken(taken, sink_of(i));
+  }
 }
 
 // Is there anything that takes disks away?

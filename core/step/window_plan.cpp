@@ -123,6 +123,7 @@ WindowPlan shortened(const WindowPlan& plan, const ExactRules& rules, const Even
 void finish_window(State& state, std::size_t disks, const WindowPlan& plan, const ImpactTally& tally, double scale) {
   Counters& c = state.counters;
   tally.count_into(c);
+  add(state.taken, tally.taken);
   const double absence = tally.absence.empty() ? 0.0 : tally.absence[0].value();
   count_step(c, plan.length * static_cast<double>(plan.disks) - absence);
   state.time = plan.end;

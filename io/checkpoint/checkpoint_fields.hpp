@@ -75,10 +75,10 @@ void fields(Stream& stream, T& value) {
 
 template <class Stream, Is<State> T>
 void fields(Stream& stream, T& value) {
-  auto& [disks, time, counters, next_id, intervals, step_begun, sources, loads, stall, validity, window, obstacles,
-         last_contact, thermal_hits] = value;
-  stream(disks, time, counters, next_id, intervals, step_begun, sources, loads, stall, validity, window, obstacles,
-         last_contact, thermal_hits);
+  auto& [disks, time, counters, next_id, intervals, step_begun, sources, taken, loads, stall, validity, window,
+         obstacles, last_contact, thermal_hits] = value;
+  stream(disks, time, counters, next_id, intervals, step_begun, sources, taken, loads, stall, validity, window,
+         obstacles, last_contact, thermal_hits);
 }
 
 template <class Stream, Is<FileMark> T>

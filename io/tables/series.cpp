@@ -102,6 +102,7 @@ SeriesRow SeriesMeter::row(const DisksInPieces& disks, const State& now, const B
 SeriesWriter::SeriesWriter(const std::string& path, const Scene& scene)
     : file_(path),
       sources_(scene),
+      sinks_(sinks_of(scene)),
       meter_(scene, true),
       groups_(scene),
       rotates_(scene.physics.surfaces.are_rough()),
@@ -109,6 +110,7 @@ SeriesWriter::SeriesWriter(const std::string& path, const Scene& scene)
   std::string heading = "t";
   for (const SeriesColumn& column : series_columns) heading += fmt::format(",{}", column.name);
   if (with_displacement_) heading += fmt::format(",{}", displacement_column);
+  for (const SceneSink& sink : sinks_) heading += fmt::format(",{}_{}", taken_column.name, sink.name);
   for (const std::string& name : side_column_names(sources_)) heading += "," + name;
   for (const std::string& name : rotation_column_names(scene)) heading += "," + name;
   if (scene.box.shear.acts()) {
@@ -121,6 +123,7 @@ SeriesWriter::SeriesWriter(const std::string& path, const Scene& scene)
 SeriesWriter::SeriesWriter(const std::string& path, const Scene& scene, const SeriesMark& from)
     : file_(path, from.file.bytes),
       sources_(scene),
+      sinks_(sinks_of(scene)),
       meter_(scene, true, from.meter),
       groups_(scene),
       rotates_(scene.physics.surfaces.are_rough()),
@@ -145,6 +148,7 @@ SeriesRow SeriesWriter::write(const DisksInPieces& disks, const State& now, doub
     }
   }
   if (with_displacement_) fmt::format_to(std::back_inserter(line), ",{}", displacement);
+  for (const SceneSink& sink : sinks_) fmt::format_to(std::back_inserter(line), ",{}", taken_by(sink, now));
   for (const double value : side_column_values(sources_, now.counters)) {
     fmt::format_to(std::back_inserter(line), ",{}", value);
   }

@@ -16,6 +16,7 @@
 #include "io/tables/rotation_columns.hpp"
 #include "io/tables/shear_columns.hpp"
 #include "io/tables/side_columns.hpp"
+#include "io/tables/sink_columns.hpp"
 
 namespace carom {
 
@@ -119,6 +120,7 @@ class SeriesWriter {
  private:
   OutputFile file_;
   EnergySources sources_;
+  std::vector<SceneSink> sinks_;
   SeriesMeter meter_;
   GroupMeter groups_;
   bool rotates_;

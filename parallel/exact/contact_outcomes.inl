@@ -32,11 +32,11 @@ void EventProcessor<scope>::meet_side(std::uint32_t i, double time) {
   ExactDisk now = disk(i);
   const WallImpact impact = meet_side_at(window_.rules, time, side, now);
   if (counts(i)) worker_.tally.add_wall(partner, impact);
-  const bool gone = window_.rules.box.side(side) == SideKind::sink;
+  const SinkNumber sink = sink_of(window_.rules.box, partner);
   const EventMark event{time, record_[i].id, partner};
-  begin_segment(i, now, gone ? LoggedSegment::gone : LoggedSegment::no_disk, event);
-  if (gone) {
-    take(i, time);
+  begin_segment(i, now, sink != no_sink ? LoggedSegment::gone : LoggedSegment::no_disk, event);
+  if (sink != no_sink) {
+    take(i, sink, time);
   } else {
     predict_after_event(i, time);
   }
@@ -50,17 +50,16 @@ void EventProcessor<scope>::meet_obstacle(std::uint32_t i, double time) {
   const WallImpact impact = meet_obstacle_at(window_.rules, time, record_[i].partner.place(), now);
   if (counts(i)) worker_.tally.add_wall(partner, impact);
   const EventMark event{time, record_[i].id, partner};
-  const bool gone = is_sink(window_.rules.box, partner);
-  begin_segment(i, now, gone ? LoggedSegment::gone : LoggedSegment::no_disk, event);
-  if (gone) return take(i, time);
+  const SinkNumber sink = sink_of(window_.rules.box, partner);
+  begin_segment(i, now, sink != no_sink ? LoggedSegment::gone : LoggedSegment::no_disk, event);
+  if (sink != no_sink) return take(i, sink, time);
   predict_after_event(i, time);
   if (!window_.burst.empty() && impact.lost_energy) count_burst(i, event);
 }
 
-// By a sink.
 template <Scope scope>
-void EventProcessor<scope>::take(std::uint32_t i, double time) {
-  if (counts(i)) worker_.tally.add_absence(window_.length - time);
+void EventProcessor<scope>::take(std::uint32_t i, SinkNumber sink, double time) {
+  if (counts(i)) worker_.tally.add_taken(sink, window_.length - time);
   schedule(i, never, Partner::none());
 }
 

@@ -121,7 +121,7 @@ class EventProcessor {
   void note_listing(std::uint32_t i);
   void meet_side(std::uint32_t i, double time);
   void meet_obstacle(std::uint32_t i, double time);
-  void take(std::uint32_t i, double time);
+  void take(std::uint32_t i, SinkNumber sink, double time);
   [[gnu::always_inline]] inline void collide_pair(std::uint32_t i, std::uint32_t j, double time);
   template <PairKind kind, class Flight>
   [[gnu::noinline]] void collide_smooth_pair(const Flight& flight, std::uint32_t i, std::uint32_t j, double time);

@@ -238,6 +238,7 @@ void ParallelExact::begin_brownian() {
   const BrownianInterval interval = begin_brownian_interval(scene_, state_);
   draw_brownian_interval(state_.disks, scene_, interval, executor_, gone_);
   forget(Known::lists);
+  count_crossed(state_.disks, scene_, interval, gone_, 0, gone_.size(), state_.taken);
   if (!gone_.empty()) remove(gone_);
   take_out_leavers();
 }

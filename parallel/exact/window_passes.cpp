@@ -44,9 +44,17 @@ void draw_brownian_interval(Disks& disks, const Scene& scene, const BrownianInte
   with_view(disks, [&](const auto& d) {
     executor.for_ranges(n, pass_disks, [&](std::size_t, std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        gone[i] = crosses_sink(d, scene, interval.number, interval.length, i) ? 1 : 0;
+        gone[i] = sink_crossed(d, scene, interval.number, interval.length, i) != no_sink ? 1 : 0;
       }
     });
+  });
+}
+
+void count_crossed(Disks& disks, const Scene& scene, const BrownianInterval& interval,
+                   const std::vector<unsigned char>& gone, std::size_t begin, std::size_t end, SinkCounts& taken) {
+  with_view(disks, [&](const auto& d) {
+    count_gone(gone, begin, end, taken,
+               [&](std::size_t i) { return sink_crossed(d, scene, interval.number, interval.length, i); });
   });
 }
 

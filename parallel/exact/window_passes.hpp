@@ -6,6 +6,7 @@
 #include "core/disks/disks.hpp"
 #include "core/disks/domain.hpp"
 #include "core/disks/overlap.hpp"
+#include "core/disks/sink_counts.hpp"
 #include "core/scene/scene.hpp"
 #include "core/step/window_length.hpp"
 #include "core/step/window_start.hpp"
@@ -22,5 +23,9 @@ Overlap deepest_wall_overlap(const Disks& disks, const Domain& box, const Execut
 // each disk, 1 for those; else it is left empty.
 void draw_brownian_interval(Disks& disks, const Scene& scene, const BrownianInterval& interval,
                             const Executor& executor, std::vector<unsigned char>& gone);
+
+// Counts those of the disks from begin to before end that it marked, by the sinks that they cross.
+void count_crossed(Disks& disks, const Scene& scene, const BrownianInterval& interval,
+                   const std::vector<unsigned char>& gone, std::size_t begin, std::size_t end, SinkCounts& taken);
 
 }  // namespace carom

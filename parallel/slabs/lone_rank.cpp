@@ -28,6 +28,7 @@ void put_progress(Bytes& message, const State& state) {
   put(message,
       Progress{state.time, state.window, state.counters, state.stall, state.validity, state.intervals, state.next_id});
   put_all(message, state.sources);
+  put_all(message, state.taken);
 }
 
 void take_progress(MessageReader& message, State& state) {
@@ -40,6 +41,7 @@ void take_progress(MessageReader& message, State& state) {
   state.intervals = p.intervals;
   state.next_id = p.next_id;
   state.sources = message.get_all<SourceState>();
+  state.taken = message.get_all<Count>();
 }
 
 class LoneEngine final : public Engine {

@@ -67,6 +67,13 @@ void sum_counts_over_ranks(Ranks& ranks, std::vector<std::size_t>& count) {
   count.assign(numbers.begin(), numbers.end());
 }
 
+void count_taken_on_ranks(Ranks& ranks, SinkCounts taken, SinkCounts& all) {
+  taken.resize(all.size());
+  std::vector<std::int64_t> numbers(taken.begin(), taken.end());
+  ranks.sum(numbers);
+  add(all, SinkCounts(numbers.begin(), numbers.end()));
+}
+
 void join_over_ranks(Ranks& ranks, StepFigures& figures) {
   Bytes here;
   put(here, FiguresOverlaps{figures.left, figures.before, figures.wall});

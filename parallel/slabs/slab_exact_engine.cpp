@@ -200,8 +200,10 @@ void SlabExact::finish(const WindowPlan& plan) {
   logged_ = plan;
   WindowDisks at_start;
   if (takes_) at_start = {state_.disks, ghosts_.ghosts_among(state_.disks.size())};
-  if (remove_gone()) at_start_ = std::move(at_start);
+  const bool any_gone = remove_gone();
+  if (any_gone) at_start_ = std::move(at_start);
   sum_over_ranks(ranks_, scene_.box, tally);
+  if (any_gone) count_taken_on_ranks(ranks_, std::exchange(tally.taken, {}), state_.taken);
   finish_window(state_, start_.disks, plan, tally);
   StepFigures figures;
   figures.inaccurate = tally.all_inaccurate();

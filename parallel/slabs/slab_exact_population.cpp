@@ -7,6 +7,7 @@
 #include "core/step/window_start.hpp"
 #include "parallel/exact/window_passes.hpp"
 #include "parallel/kicks/kick_all.hpp"
+#include "parallel/slabs/rank_sums.hpp"
 #include "parallel/slabs/redistribute.hpp"
 #include "parallel/slabs/slab_exact_engine.hpp"
 
@@ -22,7 +23,13 @@ void SlabExact::start_window() {
     const BrownianInterval interval = begin_brownian_interval(scene_, state_);
     draw_brownian_interval(state_.disks, scene_, interval, executor_, gone_);
     windows_.forget(Known::lists);
-    remove_gone();
+    SinkCounts taken;
+    if (!gone_.empty()) {
+      ghosts_.visit_own(gone_.size(), [&](std::size_t first, std::size_t last) {
+        count_crossed(state_.disks, scene_, interval, gone_, first, last, taken);
+      });
+    }
+    if (remove_gone()) count_taken_on_ranks(ranks_, taken, state_.taken);
   }
   if (is_kick_due(scene_, state_)) kick();
 }

@@ -85,7 +85,7 @@ void SlabStepping::take_newcomers(const Disks& newcomers) {
 void SlabStepping::remove_at_sinks() {
   if (!has_sinks(scene_.box)) return;
   const PhaseTimer timer(times_, "sinks");
-  mark_at_sinks(state_.disks, scene_.box, executor_, gone_, block_values_);
+  mark_at_sinks(state_.disks, scene_.box, executor_, gone_, taken_, block_values_);
   remove_gone();
 }
 
@@ -99,6 +99,7 @@ void SlabStepping::remove_gone() {
   if (here) remove_in_parallel(state_.disks, gone_, executor_, cells_.sorted.column, cells_.sorted.pass);
   disks_ -= static_cast<Count>(marked);
   state_.counters.removed += static_cast<Count>(marked);
+  count_taken_on_ranks(ranks_, std::exchange(taken_, {}), state_.taken);
   sort_due_ = true;
 }
 

@@ -106,7 +106,7 @@ void SlabStepping::start_interval(double t, double dt, Count step) {
   ranks_.maximum({&speed2_, 1});
   speed2_known_ = true;
   if (!has_brownian_sink(scene_)) return;
-  mark_crossing(state_.disks, scene_, dt, step, executor_, gone_, block_values_);
+  mark_crossing(state_.disks, scene_, dt, step, executor_, gone_, taken_, block_values_);
   remove_gone();
 }
 

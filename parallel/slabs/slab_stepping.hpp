@@ -119,6 +119,7 @@ class SlabStepping : public Engine, public InSlabs {
   std::vector<std::uint32_t> near_;
   SeenBeyond seen_;
   std::vector<unsigned char> gone_;
+  SinkCounts taken_;  // by sinks, of those
   std::vector<double> block_values_;
   ShearedBlocks sheared_;
 };

@@ -244,6 +244,7 @@ class Maker {
     state.obstacles = segments_of(scene_);
     state.next_id = static_cast<DiskId>(disks_.disks());
     state.sources.resize(scene_.sources.size());
+    state.taken.resize(sink_numbers(scene_));
     return state;
   }
 

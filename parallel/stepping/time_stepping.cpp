@@ -91,7 +91,7 @@ void TimeStepping::draw_velocities(double dt, Count step) {
   speed2_ = carom::draw_velocities(state_.disks, scene_, dt, step, executor_, block_values_);
   speed2_known_ = true;
   if (has_brownian_sink(scene_)) {
-    remove_gone(mark_crossing(state_.disks, scene_, dt, step, executor_, gone_, block_values_));
+    remove_gone(mark_crossing(state_.disks, scene_, dt, step, executor_, gone_, state_.taken, block_values_));
   }
 }
 
@@ -214,7 +214,7 @@ void TimeStepping::finish_contacts() {
 void TimeStepping::remove_at_sinks() {
   if (!has_sinks(scene_.box)) return;
   const PhaseTimer timer(times_, "sinks");
-  remove_gone(mark_at_sinks(state_.disks, scene_.box, executor_, gone_, block_values_));
+  remove_gone(mark_at_sinks(state_.disks, scene_.box, executor_, gone_, state_.taken, block_values_));
 }
 
 }  // namespace carom

@@ -12,6 +12,7 @@
 #include "core/disks/state_hash.hpp"
 #include "core/scene/drawn_velocities.hpp"
 #include "core/scene/scene_names.hpp"
+#include "io/tables/sink_columns.hpp"
 #include "parallel/slabs/leading_engine.hpp"
 
 namespace carom {
@@ -32,6 +33,12 @@ Json side_energy_of(const Summary& s, Gives&& gives) {
     if (gives(all_sides[k])) energy[std::string(side_names[k])] = json_number(s.counters.side_energy[k]);
   }
   return energy.empty() ? absent() : energy;
+}
+
+Json removed_by(const Summary& s) {
+  Json counts = Json::object();
+  for (const auto& [sink, disks] : s.removed_by) counts[sink] = disks;
+  return counts;
 }
 
 // These ids, if there was an overlap.
@@ -115,6 +122,10 @@ const JsonKey<Summary> summary_keys[] = {
      "one that a sink takes counts for half of that step",
      [](const Summary& s) -> Json { return json_number(s.collision_rate); }},
     {"removed", "", "disks that sinks have taken", [](const Summary& s) -> Json { return s.counters.removed; }},
+    {"removed_by", "",
+     "only with sinks: an object, how many disks each of them took (`left` or another side, `walls.0` for the first of "
+     "`[[walls]]`, ...)",
+     [](const Summary& s) -> Json { return s.removed_by.empty() ? absent() : removed_by(s); }},
     {"emitted", "", "disks that came from sources", [](const Summary& s) -> Json { return s.counters.emitted; }},
     {"state_hash", "", "64-bit hash of (id, x, y, vx, vy), and the spin of rough disks, of all disks at the end",
      [](const Summary& s) -> Json { return s.state_hash; }},
@@ -284,6 +295,7 @@ Summary summarize(const RunStart& start, const Engine& engine, const Scene& scen
   s.state_hash = hash_text(sums.hash);
   s.seed = scene.seed;
   s.thermostat = scene.physics.thermostat.acts();
+  for (const SceneSink& sink : sinks_of(scene)) s.removed_by.emplace_back(sink.name, taken_by(sink, state));
   s.phases = engine.phase_times();
   if (choice.lead != nullptr && choice.ranks > 1) {
     s.ranks = choice.lead->report();

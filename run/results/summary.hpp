@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/measure/state_sums.hpp"
@@ -35,6 +36,7 @@ struct Summary {
   std::uint64_t seed = 1;
   Domain box;
   bool thermostat = false;
+  std::vector<std::pair<std::string, Count>> removed_by;  // each sink, and how many disks it took
   Count frames = 0;
   std::vector<std::string> warnings;  // of the physics, in order
   Count resumed = 0;                  // how often it went on from a checkpoint; the times are those of all parts

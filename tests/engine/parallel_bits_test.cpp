@@ -27,6 +27,7 @@ constexpr int steps = 12;
 struct Trace {
   std::vector<std::uint64_t> hashes;
   Counters counters;
+  SinkCounts taken;
   std::vector<std::string> warnings;
   std::string error;  // of exact: inelastic collapse
 };
@@ -42,6 +43,7 @@ Trace trace_of(Engine& engine, double t_end) {
     trace.error = error.what();
   }
   trace.counters = engine.state().counters;
+  trace.taken = engine.state().taken;
   trace.warnings = engine.take_warnings();
   return trace;
 }
@@ -51,6 +53,7 @@ void expect_same(const Trace& a, const Trace& b) {
   EXPECT_EQ(a.warnings, b.warnings);
   EXPECT_EQ(a.error, b.error);
   test::expect_same_counters(a.counters, b.counters);
+  EXPECT_EQ(a.taken, b.taken);
 }
 
 class ParallelBits : public ::testing::TestWithParam<std::tuple<const char*, const char*>> {};
@@ -73,6 +76,7 @@ TEST_P(ParallelBits, EqualTheReferenceAfterEveryStep) {
     collisions += expected.counters.collisions;
     emitted += expected.counters.emitted;
     removed += expected.counters.removed;
+    EXPECT_EQ(test::all_taken(expected.taken), expected.counters.removed);
   }
   // The scenes must have had collisions, or the comparison shows nothing.
   EXPECT_GT(collisions, 35U * scenes.size());

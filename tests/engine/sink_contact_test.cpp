@@ -112,7 +112,7 @@ TEST(SinkSource, BrownianDisksThatWouldVanishAtOnceAreRefused) {
 }
 
 // A Brownian disk is taken with probability exp(-d1 d2 / (D dt)), d1 and d2 its distances from the side before and
-// after the step (see crosses_sink): whatever these are, as the number that is drawn for it says.
+// after the step (see sink_crossed): whatever these are, as the number that is drawn for it says.
 TEST(BrownianSink, CrossingIsThatOfABridge) {
   Scene scene = test::scene_of(Method::pairwise, 20.0, 20.0, 0.01, 2.0);
   scene.physics.diffusion = 0.5;
@@ -127,7 +127,7 @@ TEST(BrownianSink, CrossingIsThatOfABridge) {
     const State start = test::state_of(scene, {{0.5 + distance, 10.0, gained / dt, 0.0, 0.5, 1.0, id}});
     Disks disks = start.disks;
     disks.id[0] = id;
-    const bool crosses = with_view(disks, [&](const auto& d) { return crosses_sink(d, scene, 7, dt, 0); });
+    const bool crosses = with_view(disks, [&](const auto& d) { return sink_crossed(d, scene, 7, dt, 0) != no_sink; });
     const auto stream = static_cast<Stream>(static_cast<std::uint32_t>(Stream::sink_crossing) +
                                             (static_cast<std::uint32_t>(Side::left) << 8U));
     const double product = distance * (distance + gained);
@@ -143,7 +143,7 @@ TEST(BrownianSink, CrossingIsThatOfABridge) {
   EXPECT_LT(near, 20000U);
 }
 
-// What lets crosses_sink do without a logarithm: none of a uniform is below -37.
+// What lets sink_crossed do without a logarithm: none of a uniform is below -37.
 TEST(BrownianSink, NoUniformIsFurtherOut) {
   EXPECT_GT(deterministic_log(0x1p-53), -37.0);
 }

@@ -80,6 +80,7 @@ TEST_P(SourceSink, CountsHowLongDisksAreThere) {
                                          {50.0, 80.0, 0.0, 0.0, 1.0, 1.0}});  // stays
   const State end = test::run(s, start);
   EXPECT_EQ(end.counters.removed, 2U);
+  EXPECT_EQ(end.taken[sink_number(Side::left)], 2U);
   EXPECT_NEAR(end.counters.disk_time, 10.0 + 20.0 + 64.0, 2.0 * dt);
 }
 
@@ -91,6 +92,7 @@ TEST(ExactSink, CountsHowLongDisksAreThere) {
       s, {{11.0, 20.0, -1.0, 0.0, 1.0, 1.0}, {41.0, 40.0, -2.0, 0.0, 1.0, 1.0}, {50.0, 80.0, 0.0, 0.0, 1.0, 1.0}});
   const State end = test::run(s, start);
   EXPECT_EQ(end.counters.removed, 2U);
+  EXPECT_EQ(end.taken[sink_number(Side::left)], 2U);
   EXPECT_NEAR(end.counters.disk_time, 10.0 + 20.0 + 64.0, 1e-12);
   for (const int threads : {1, 3}) {
     const auto engine = make_parallel_engine(s, start, {threads, 256});

@@ -66,6 +66,7 @@ Tally run_beside_one_queue(const Scene& scene, int threads, std::size_t divisor,
       ++tally.done;
       EXPECT_EQ(state_hash(parts.state.disks), state_hash(right.disks)) << "window " << k;
       test::expect_same_counters(right.counters, parts.state.counters);
+      EXPECT_EQ(right.taken, parts.state.taken) << "window " << k;
       EXPECT_EQ(parts.state.time, right.time) << "window " << k;
       EXPECT_EQ(parts.state.last_contact, right.last_contact) << "window " << k;
       EXPECT_EQ(parts.state.thermal_hits, right.thermal_hits) << "window " << k;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/disks/disks.hpp"
 #include "core/disks/obstacle_cells.hpp"
@@ -107,6 +108,8 @@ void Sanity::look_at_counts(const State& state) {
     blame(state, fmt::format("{} disks and {} emitted, {} removed, but {} left", disks_, c.emitted, c.removed,
                              state.disks.size()));
   }
+  const Count taken = std::accumulate(state.taken.begin(), state.taken.end(), Count{0});
+  if (taken != c.removed) blame(state, fmt::format("{} removed, but sinks took {}", c.removed, taken));
   constexpr Count most = Count{1} << 62U;
   if (c.collisions > most || c.wall_collisions > most || c.waiting > most) blame(state, "a count below 0");
   if (c.collisions < before_.collisions || c.wall_collisions < before_.wall_collisions || c.removed < before_.removed ||

@@ -38,6 +38,7 @@ State full_state() {
   s.intervals = 6;
   s.step_begun = true;
   s.sources = {{7}, {8}};
+  s.taken = {9, 0, 0, 4};
   s.loads = {{1, 4, 0.7}, {4, 4294967295U, 0.9}};
   s.stall = {99, 0.25};
   s.validity = {17,

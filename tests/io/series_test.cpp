@@ -197,6 +197,9 @@ TEST(SeriesColumns, OverlapsAreThoseOfTheBoxAtTheTimeOfTheRow) {
 TEST(Series, ValuesStandUnderTheirNames) {
   Scene scene = test::scene_of(Method::exact, 10.0, 10.0, 0.0, 10.0);
   scene.box.temperatures[0] = 1.0;
+  scene.box.sides[1] = SideKind::sink;
+  scene.walls.resize(2);
+  scene.walls[1].sink = true;
   scene.box.motions[3] = {SideMotion::Kind::steady, 0.0, 0.5};
   scene.box.inner_walls_move = true;
   scene.physics.thermostat.kind = Thermostat::Kind::langevin;
@@ -209,6 +212,7 @@ TEST(Series, ValuesStandUnderTheirNames) {
   disks.inertia = 0.5;
   append(disks, {5.0, 5.0, 3.0, 4.0, 1.0, 2.0, 0, 3.0});
   State state;
+  state.taken = {0, 11, 0, 0, 0, 12};
   state.counters.side_energy[0] = 1.5;
   state.counters.side_energy[3] = 4.5;
   state.counters.wall_work = 5.5;
@@ -224,13 +228,15 @@ TEST(Series, ValuesStandUnderTheirNames) {
   const std::string text = test::text_of(path);
   EXPECT_EQ(text.substr(0, text.find('\n')),
             "t,disks,kinetic,potential,total,px,py,collisions,wall_collisions,pressure,collision_rate,max_overlap,"
-            "removed,emitted,waiting,force_left,force_right,force_bottom,force_top,displacement,heat_left,work_top,"
-            "wall_work,wall_push_x,wall_push_y,thermostat_heat,rotational,rotational_temperature,disks_one,kinetic_one,"
-            "temperature_one,vx_one,vy_one");
+            "removed,emitted,waiting,force_left,force_right,force_bottom,force_top,displacement,removed_by_right,"
+            "removed_by_walls.1,heat_left,work_top,wall_work,wall_push_x,wall_push_y,thermostat_heat,rotational,"
+            "rotational_temperature,disks_one,kinetic_one,temperature_one,vx_one,vy_one");
   EXPECT_THAT(text, ::testing::HasSubstr("\n0.30000000000000004,1,25,")) << "all digits of the time";
   auto row = read_csv(path).at(0);
   EXPECT_EQ(row["collisions"], 5e9);
   EXPECT_EQ(row["displacement"], 9.5);
+  EXPECT_EQ(row["removed_by_right"], 11.0);
+  EXPECT_EQ(row["removed_by_walls.1"], 12.0);
   EXPECT_EQ(row["heat_left"], 1.5);
   EXPECT_EQ(row["work_top"], 4.5);
   EXPECT_EQ(row["wall_work"], 5.5);

@@ -39,8 +39,8 @@ TEST(SummaryText, OfSidesOnlyThoseThatGiveAnything) {
   Summary s = hundred_steps();
   for (std::size_t k = 0; k < 4; ++k) s.counters.side_energy[k] = 1.0 + static_cast<double>(k);
   json all = parsed(s);
-  for (const char* const key :
-       {"heat", "work", "wall_work", "wall_push", "thermostat_heat", "shear_work", "traffic", "resume_with"}) {
+  for (const char* const key : {"heat", "work", "wall_work", "wall_push", "thermostat_heat", "shear_work", "removed_by",
+                                "traffic", "resume_with"}) {
     EXPECT_FALSE(all.contains(key)) << key;
   }
   s.box.temperatures[1] = 1.0;
@@ -53,6 +53,7 @@ TEST(SummaryText, OfSidesOnlyThoseThatGiveAnything) {
   s.counters.wall_push[1] = 7.0;
   s.counters.thermostat_heat = 8.0;
   s.counters.shear_work = 9.0;
+  s.removed_by = {{"left", 10}, {"walls.2", 0}};
   s.resume_with = "carom resume out";
   all = parsed(s);
   EXPECT_EQ(all["heat"], (json{{"right", 2.0}}));
@@ -60,6 +61,7 @@ TEST(SummaryText, OfSidesOnlyThoseThatGiveAnything) {
   EXPECT_EQ(all["wall_work"], 5.0);
   EXPECT_EQ(all["wall_push"], (json{6.0, 7.0}));
   EXPECT_EQ(all["thermostat_heat"], 8.0);
+  EXPECT_EQ(all["removed_by"], (json{{"left", 10}, {"walls.2", 0}}));
   EXPECT_EQ(all["shear_work"], 9.0);
   EXPECT_EQ(all["resume_with"], "carom resume out");
 }

@@ -1,4 +1,5 @@
-// sweep.csv: heat and work have columns where a run has them. A sweep over the speed of a piston told of no work.
+// sweep.csv: heat, work and what each sink took have columns where a run has them. A sweep over the speed of a piston
+// told of no work.
 #include "app/sweep/sweep_table.hpp"
 
 #include <gmock/gmock.h>
@@ -34,6 +35,13 @@ TEST(SweepTable, HasHeatAndWorkWhereARunHasThem) {
   EXPECT_THAT(
       ends({{&run, plain}, {&run, piston}, {&run, bath}}),
       testing::ElementsAre(",heat_left,thermostat_heat,work_right,work_top", ",,,,", ",-2.5,,1.5,0.0", ",,0.25,,"));
+}
+
+TEST(SweepTable, HasWhatEachSinkTookWhereARunHasSinks) {
+  const SweepRun run{"0001", {{"seed_of_run", "1"}, {"seed", "1"}}};
+  Json open = {{"state_hash", "#"}};
+  open["removed_by"] = {{"left", 3}, {"walls.2", 0}};
+  EXPECT_THAT(ends({{&run, open}}), testing::ElementsAre(",removed_by_left,removed_by_walls.2", ",3,0"));
 }
 
 }  // namespace

@@ -144,6 +144,7 @@ bool expect_truth(const Scene& scene, const State& start, const Truth& truth, co
   }
   EXPECT_EQ(engine->state().time, truth.end.time);
   test::expect_same_counters(truth.end.counters, engine->state().counters);
+  EXPECT_EQ(truth.end.taken, engine->state().taken);
   return on_slabs;
 }
 

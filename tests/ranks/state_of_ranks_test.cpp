@@ -45,6 +45,7 @@ void expect_whole_in_pieces(const Engine& engine) {
   }
   EXPECT_EQ(pieces->part().time, whole.part().time);
   test::expect_same_counters(whole.part().counters, pieces->part().counters);
+  EXPECT_EQ(whole.part().taken, pieces->part().taken);
   EXPECT_EQ(pieces->part().next_id, whole.part().next_id);
 }
 

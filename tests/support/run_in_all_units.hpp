@@ -24,6 +24,7 @@ inline void expect_equal(const State& a, const State& b) {
   EXPECT_EQ(a.disks.inertia, b.disks.inertia);
   EXPECT_EQ(a.time, b.time);
   expect_same_counters(a.counters, b.counters);
+  EXPECT_EQ(a.taken, b.taken);
   EXPECT_EQ(a.thermal_hits, b.thermal_hits);
   ASSERT_EQ(a.obstacles.size(), b.obstacles.size());
   for (std::size_t k = 0; k < a.obstacles.size(); ++k) {

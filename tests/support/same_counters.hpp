@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "core/disks/state.hpp"
 
 namespace carom::test {
@@ -30,6 +32,11 @@ inline void expect_same_counters(const Counters& expected, const Counters& found
   EXPECT_EQ(shear_work, found.shear_work);
   EXPECT_EQ(wall_work, found.wall_work);
   EXPECT_THAT(found.wall_push, ::testing::ElementsAreArray(wall_push));
+}
+
+// By all sinks together.
+inline Count all_taken(const SinkCounts& taken) {
+  return std::accumulate(taken.begin(), taken.end(), Count{0});
 }
 
 }  // namespace carom::test

@@ -31,6 +31,7 @@ struct SlabTrace {
   std::vector<std::uint64_t> hashes;  // after every step
   std::vector<std::size_t> contacts;  // likewise, their number
   Counters counters;
+  SinkCounts taken;
   WorstOverlap worst_disks, worst_wall;
   std::vector<std::string> warnings;
   std::size_t most_moved = 0;  // on ranks: the most disks that came to a rank, or left it, in a step
@@ -43,6 +44,7 @@ struct SlabTrace {
 inline void see_end(Engine& engine, SlabTrace& trace) {
   const State& state = engine.state();
   trace.counters = state.counters;
+  trace.taken = state.taken;
   trace.worst_disks = state.validity.disks;
   trace.worst_wall = state.validity.wall;
   trace.warnings = engine.take_warnings();
@@ -100,6 +102,8 @@ inline void expect_same(const SlabTrace& expected, const SlabTrace& trace) {
   expect_same(expected.worst_disks, trace.worst_disks);
   expect_same(expected.worst_wall, trace.worst_wall);
   expect_same_counters(expected.counters, trace.counters);
+  EXPECT_EQ(expected.taken, trace.taken);
+  EXPECT_EQ(all_taken(trace.taken), trace.counters.removed);
 }
 
 // The scenes with all combinations of what slabs can have, for one kind of sides. Under gravity disks settle, or, in

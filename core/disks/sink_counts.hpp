@@ -1,0 +1,43 @@
+// How many disks each sink took. A scene's sinks have numbers: the four sides (order of Side), then its [[walls]]
+// tables, those that are no sinks among them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/base/types.hpp"
+#include "core/disks/domain.hpp"
+#include "core/disks/obstacle.hpp"
+
+namespace carom {
+
+using SinkNumber = std::uint32_t;
+inline constexpr SinkNumber no_sink = ~SinkNumber{0};
+
+inline SinkNumber sink_number(Side side) {
+  return static_cast<SinkNumber>(side);
+}
+
+// Of the [[walls]] table of that place in the scene, and of a piece of its wall.
+inline SinkNumber sink_number_of_table(std::size_t table) {
+  return static_cast<SinkNumber>(all_sides.size() + table);
+}
+inline SinkNumber sink_number(const Obstacle& piece) {
+  return sink_number_of_table(piece.id);
+}
+
+// By number; those behind its end took none.
+using SinkCounts = std::vector<Count>;
+
+// A sink took so many more.
+inline void count_taken(SinkCounts& counts, SinkNumber sink, Count disks = 1) {
+  if (counts.size() <= sink) counts.resize(std::size_t{sink} + 1);
+  counts[sink] += disks;
+}
+
+inline void add(SinkCounts& counts, const SinkCounts& more) {
+  for (std::size_t k = 0; k < more.size(); ++k) count_taken(counts, static_cast<SinkNumber>(k), more[k]);
+}
+
+}  // namespace carom
