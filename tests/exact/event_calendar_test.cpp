@@ -108,6 +108,51 @@ TEST(EventCalendar, HoldsTheLastMoment) {
   EXPECT_FALSE(calendar.find_first(found, at, smaller_number, [](std::uint32_t, int) {}));
 }
 
+// More at the last moment than a page is searched for each time: a page without length cannot be made shorter.
+TEST(EventCalendar, HoldsManyAtTheLastMoment) {
+  constexpr std::uint32_t disks = 200;
+  Entries entries(disks);
+  EventCalendar calendar;
+  calendar.begin(0.0, 1.0, entries.all(), 0, false);
+  enter_all(entries, calendar, std::vector<double>(disks, 1.0));
+  std::uint32_t found = 0;
+  double at = 0.0;
+  for (std::uint32_t k = 0; k < disks; ++k) {
+    ASSERT_TRUE(calendar.find_first(found, at, smaller_number, [](std::uint32_t, int) {}));
+    ASSERT_EQ(found, k);
+    calendar.move(found, never, smaller_number);
+  }
+  EXPECT_FALSE(calendar.find_first(found, at, smaller_number, [](std::uint32_t, int) {}));
+}
+
+// Whether it came to the end of the events before or not: it finds and announces the disks that it has now, as the
+// others may be gone.
+TEST(EventCalendar, BegunAgainHasOtherDisksAlone) {
+  for (const int events : {300, 2000}) {
+    Entries entries(2000);
+    EventCalendar calendar;
+    std::uint32_t first = 0;
+    std::uint32_t last = 2000;
+    for (const int wanted : {events, 100}) {
+      const std::uint32_t disks = last - first;
+      for (std::uint32_t k = first; k < last; ++k) entries.entry[k].time = (k - first + 0.5) / disks;
+      calendar.begin(0.0, 1.0, {entries.entry.data(), first, last, 2000}, disks, true);
+      calendar.insert_all([](std::uint32_t) { return true; });
+      std::uint32_t found = 0;
+      double at = 0.0;
+      for (int k = 0; k < wanted; ++k) {
+        const auto soon = [&](std::uint32_t disk, int) { EXPECT_TRUE(disk >= first && disk < last) << disk; };
+        ASSERT_TRUE(calendar.find_first(found, at, smaller_number, soon));
+        ASSERT_EQ(found, first + static_cast<std::uint32_t>(k));
+        calendar.move(found, k % 2 == 0 ? never : at + 2.0, smaller_number);
+        if (testing::Test::HasFailure()) return;
+      }
+      first = 1500;
+      last = 1600;
+    }
+  }
+}
+
 // Disks that are taken out have no event until they are moved in again, some of them to a time that has passed.
 TEST(EventCalendar, ForgetsDisksThatAreOut) {
   for (const bool many : {false, true}) {
