@@ -113,5 +113,39 @@ TEST(ChangesInParts, OtherVelocitiesHaveTheBitsOfOneQueue) {
   }
 }
 
+// Parts are void without one of their disks, or with one more, whatever is asked before the next window: a look round
+// finds all or is not to be had, and other changes come to the right disks.
+TEST(ChangesInParts, AreKnownNoMoreWhereADiskComesOrGoes) {
+  for (const Edit::Kind kind : {Edit::Kind::add, Edit::Kind::remove}) {
+    const Scene scene = gas_of("wall");
+    const auto one_queue = make_parallel_engine(scene, initial_state(scene), {1});
+    const auto in_parts = make_parallel_engine(scene, initial_state(scene), {2});
+    const auto change = [&](Edit edit, DiskId id) {
+      for (const auto& engine : {&one_queue, &in_parts}) {
+        edit.index = place_of((*engine)->state().disks, id);
+        ASSERT_TRUE((*engine)->edit(edit));
+      }
+    };
+    for (int window = 0; window < 4; ++window) {
+      one_queue->step();
+      in_parts->step();
+      ASSERT_EQ(state_hash(in_parts->state().disks), state_hash(one_queue->state().disks)) << "window " << window;
+      EXPECT_TRUE(in_parts->visit_near({1.0, 1.0}, 1.0, 1.0, [](std::size_t) {})) << "in parts";
+      // So small that it has room in the corner, whatever disk is there.
+      const Disk small{0.005 + 0.01 * window, 0.002, 0.0, 3.0, 0.001, 1.0, 6000U + static_cast<DiskId>(window)};
+      change({kind, small, 0}, static_cast<DiskId>(100 * window));
+      const Disks& d = in_parts->state().disks;
+      ASSERT_EQ(d.size(), one_queue->state().disks.size());
+      std::set<std::size_t> seen;
+      if (in_parts->visit_near({10.0, 10.0}, side, side, [&](std::size_t i) { seen.insert(i); })) {
+        EXPECT_EQ(seen.size(), d.size());
+      }
+      Edit faster{Edit::Kind::set_velocity, {}, 0};
+      faster.disk.vx = 4.0;
+      change(faster, static_cast<DiskId>(100 * window + 1));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace carom::exact_tests
