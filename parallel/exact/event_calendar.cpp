@@ -53,12 +53,12 @@ void EventCalendar::begin_part(double start, double pages_per_time, std::size_t 
 // False, without a change, if this is the last part.
 bool EventCalendar::begin_next_part() {
   if (later_pages_ == 0) return false;
-  deliver_all();
   begin_part(start_ + last_page_ / pages_per_time_, pages_per_time_, later_pages_);
   enter_again();
   return true;
 }
 
+// Those in transit, too.
 void EventCalendar::enter_again() {
   insert_all([this](std::uint32_t disk) { return holds(disk); });
 }
@@ -76,7 +76,6 @@ void EventCalendar::set_pages(double start, double pages_per_time, std::size_t p
   pages_ = static_cast<std::uint32_t>(pages);
   last_page_ = static_cast<double>(pages - 1);
   page_ = unsorted_from_ = 0;
-  later_pages_ = 0;
   transit_.fill({end_of_list_, 0});
   first_in_transit_ = absent;
   announced_.fill(first_disk_);
@@ -87,7 +86,6 @@ void EventCalendar::set_pages(double start, double pages_per_time, std::size_t p
 // largest number of pages stay together on the last one, until that is divided in turn. False, without a change, where
 // it would not help.
 bool EventCalendar::shorten_pages() {
-  deliver_all();
   collect_page();
   const auto earlier = [&](std::uint32_t a, std::uint32_t b) { return node_[a].time < node_[b].time; };
   const auto [first, last] = std::minmax_element(crowded_.begin(), crowded_.end(), earlier);
@@ -104,6 +102,7 @@ bool EventCalendar::shorten_pages() {
   return true;
 }
 
+// None of its entries is in transit: these are for later pages, and turn_page() delivers them in time.
 void EventCalendar::collect_page() {
   crowded_.clear();
   for (std::uint32_t k = first_[page_]; k != end_of_list_; k = node_[k].next) crowded_.push_back(k);
