@@ -105,7 +105,9 @@ TEST(EventCalendar, HoldsTheLastMoment) {
   ASSERT_TRUE(calendar.find_first(found, at, smaller_number, [](std::uint32_t, int) {}));
   EXPECT_EQ(found, 0U);
   calendar.move(0, never, smaller_number);
-  EXPECT_FALSE(calendar.find_first(found, at, smaller_number, [](std::uint32_t, int) {}));
+  for (int k = 0; k < 2; ++k) {
+    EXPECT_FALSE(calendar.find_first(found, at, smaller_number, [](std::uint32_t, int) {})) << "asked again";
+  }
 }
 
 // More at the last moment than a page is searched for each time: a page without length cannot be made shorter.
