@@ -9,6 +9,7 @@
 #include "core/base/input_message.hpp"
 #include "core/disks/domain.hpp"
 #include "core/disks/state_hash.hpp"
+#include "core/measure/energy_gain.hpp"
 #include "core/scene/scene_text.hpp"
 #include "core/start/initial_state.hpp"
 #include "core/step/engine.hpp"
@@ -120,11 +121,11 @@ void plan_flight(const Scene& scene, const Trial& trial, ChartScene& chart) {
   chart.longest_step = std::min(0.98 * safe_travel / std::sqrt(trial.travel2), 0.5 * chart.flight);
   const bool obstacles = !scene.walls.empty() || std::ranges::any_of(scene.groups, &DiskGroup::fixed);
   const bool walls = scene.box.has(SideKind::wall) || obstacles;
+  const bool kicked = scene.physics.thermostat.acts();
   const bool elastic = !disks_dissipate(scene) && !scene.box.walls_dissipate() && !inner_walls_dissipate(scene) &&
-                       !walls_rub(scene) && !scene.box.has_thermal_side() && !scene.box.inner_walls_move &&
-                       !scene.physics.thermostat.acts();
-  chart.keeps_energy = elastic;
-  chart.keeps_momentum = !walls && !scene.physics.gravity.acts();
+                       !walls_rub(scene) && !scene.box.has_thermal_side() && !scene.box.inner_walls_move && !kicked;
+  chart.keeps_energy = elastic && !falls_for_ever(scene);
+  chart.keeps_momentum = !walls && !scene.physics.gravity.acts() && !kicked;
   chart.figure = !elastic && chart.keeps_momentum ? Figure::cooling : Figure::pressure;
 }
 

@@ -11,12 +11,6 @@ namespace carom {
 
 namespace {
 
-// Does gravity act along a periodic axis? A disk that goes round there has its potential energy anew each time.
-bool falls_for_ever(const Scene& scene) {
-  const Gravity& g = scene.physics.gravity;
-  return (g.left != 0.0 && scene.box.periodic_x()) || (g.down != 0.0 && scene.box.periodic_y());
-}
-
 // Have disks gone that may have had less than no energy, so that those that are left have more without them?
 bool may_lose_negative(const Scene& scene, const State& state) {
   const Gravity& g = scene.physics.gravity;
@@ -24,6 +18,11 @@ bool may_lose_negative(const Scene& scene, const State& state) {
 }
 
 }  // namespace
+
+bool falls_for_ever(const Scene& scene) {
+  const Gravity& g = scene.physics.gravity;
+  return (g.left != 0.0 && scene.box.periodic_x()) || (g.down != 0.0 && scene.box.periodic_y());
+}
 
 std::vector<std::string> energy_warnings(const Scene& scene, const RunStart& start, const State& state) {
   return energy_warnings(scene, start, state, energy_of(state.disks, scene.physics.gravity));

@@ -15,6 +15,9 @@ namespace carom {
 inline constexpr double most_gain_exact = 1e-9;
 inline constexpr double most_gain_stepping = 0.01;
 
+// Does gravity act along a periodic axis? A disk that goes round there has its potential energy anew each time.
+bool falls_for_ever(const Scene& scene);
+
 // What a run at its end has to say of energy that nothing put in. Brownian motion keeps none; nothing can be said where
 // gravity acts along periodic sides, nor where it pulls to the right or up and disks have left.
 std::vector<std::string> energy_warnings(const Scene& scene, const RunStart& start, const State& state);

@@ -10,10 +10,12 @@
 #include <utility>
 #include <vector>
 
+#include "app/chart/chart_own.hpp"
 #include "app/chart/chart_result.hpp"
 #include "app/chart/chart_sample.hpp"
 #include "core/disks/domain.hpp"
 #include "core/disks/state_hash.hpp"
+#include "core/load/scene_file.hpp"
 #include "core/measure/invariants.hpp"
 #include "core/start/initial_state.hpp"
 #include "core/step/engine.hpp"
@@ -209,6 +211,56 @@ TEST(ChartSamples, FiguresAreThoseThatAreKnown) {
   const Sample brownian = by_exact("brownian", 3.0, 0.128, 0.0016);
   EXPECT_GT(brownian[Measure::figure], 0.45);
   EXPECT_LT(brownian[Measure::figure], 0.85);
+}
+
+// What is drawn of a scene of one's own: the drift of what its physics conserves, and the figure that goes with it.
+TEST(ChartSamples, ASceneOfOnesOwnHasTheDriftsOfWhatItKeeps) {
+  struct Case {
+    const char* sides;  // of the box, with what is on its walls
+    const char* more;
+    bool keeps_energy, keeps_momentum;
+    Figure figure;
+  };
+  const std::string periodic = "left = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\n";
+  const char* const round = periodic.c_str();
+  const char* const thermostat =
+      "[physics]\nthermostat = { kind = \"langevin\", temperature = 1.0, rate = 0.5, dt = 0.1 }\n";
+  for (const Case& c :
+       {Case{round, "", true, true, Figure::pressure}, Case{"", "", true, false, Figure::pressure},
+        Case{round, "[physics]\nrestitution = 0.9\n", false, true, Figure::cooling},
+        Case{"", "[physics]\nrestitution = 0.9\n", false, false, Figure::pressure},
+        Case{"wall_restitution = 0.9\n", "", false, false, Figure::pressure},
+        Case{"left = { temperature = 2.0 }\n", "", false, false, Figure::pressure},
+        Case{"left = { motion = { vibrate = [0.1, 0.0], period = 1.0 } }\n", "", true, false, Figure::pressure},
+        Case{round, thermostat, false, false, Figure::pressure},
+        Case{"", "[physics]\ngravity = 0.5\n", true, false, Figure::pressure},
+        Case{round, "[physics]\ngravity = 0.5\n", false, false, Figure::pressure},
+        Case{"left = \"periodic\"\nright = \"periodic\"\n", "[physics]\ngravity = [0.5, 0.5]\n", false, false,
+             Figure::pressure},
+        Case{round, "[[walls]]\nfrom = [2, 2]\nto = [6, 2]\n", true, false, Figure::pressure},
+        Case{round, "[[walls]]\nfrom = [2, 2]\nto = [6, 2]\nrestitution = 0.5\n", false, false, Figure::pressure},
+        Case{round, "[[walls]]\nfrom = [2, 2]\nto = [6, 2]\nmotion = { vibrate = [0.0, 0.1], period = 1.0 }\n", false,
+             false, Figure::pressure},
+        Case{round, "[[disks]]\nfixed = true\ncount = 1\npositions = [[6, 6]]\nradius = 0.4\n", true, false,
+             Figure::pressure}}) {
+    SCOPED_TRACE(std::string(c.sides) + c.more);
+    const ChartScene own = own_scene(parse_scene(
+        std::string("[box]\nwidth = 12\nheight = 12\n") + c.sides + c.more +
+            "[[disks]]\ncount = 40\npositions = \"random\"\nvelocities = { maxwell = 1.0 }\nradius = 0.5\nmass = 1\n"
+            "[run]\nmethod = \"exact\"\nt_end = 3\n",
+        "own.toml", ""));
+    EXPECT_EQ(own.keeps_energy, c.keeps_energy);
+    EXPECT_EQ(own.keeps_momentum, c.keeps_momentum);
+    EXPECT_EQ(own.figure, c.figure);
+    if (!own.keeps_energy && !own.keeps_momentum) continue;
+    const Sample sample = measure_seed(own, 1, {{Method::exact, 0.0, 1}}).at(0);
+    if (own.keeps_energy) {
+      EXPECT_LT(sample[Measure::energy], 1e-11);
+    }
+    if (own.keeps_momentum) {
+      EXPECT_LT(sample[Measure::momentum], 1e-11);
+    }
+  }
 }
 
 TEST(ChartSamples, ASeedUsesTheSettingsThatWantIt) {
