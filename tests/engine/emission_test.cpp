@@ -32,19 +32,26 @@ Scene scene_with_source() {
 
 // Across periodic sides, and clear of walls.
 TEST(EmissionPlace, IsAnywhereAlongTheSide) {
-  for (const bool periodic_y : {false, true}) {
-    Scene s = scene_with_source();
-    const SideKind along = periodic_y ? SideKind::periodic : SideKind::wall;
-    s.box.sides[static_cast<std::size_t>(Side::bottom)] = s.box.sides[static_cast<std::size_t>(Side::top)] = along;
-    double lowest = height, highest = 0.0;
-    for (DiskId id = 0; id < 5000; ++id) {
-      const double y = draw_emission(s, s.box, 0, id, id, 0).y;
-      lowest = std::min(lowest, y);
-      highest = std::max(highest, y);
+  for (const Side side : all_sides) {
+    const bool upright = side == Side::left || side == Side::right;
+    const double length = upright ? height : width;
+    for (const bool periodic : {false, true}) {
+      Scene s = scene_with_source();
+      s.sources[0].side = side;
+      for (const Side along : all_sides) {
+        const bool is_end = upright != (along == Side::left || along == Side::right);
+        s.box.sides[static_cast<std::size_t>(along)] = is_end && periodic ? SideKind::periodic : SideKind::wall;
+      }
+      double lowest = length, highest = 0.0;
+      for (DiskId id = 0; id < 5000; ++id) {
+        const Disk disk = draw_emission(s, s.box, 0, id, id, 0);
+        lowest = std::min(lowest, upright ? disk.y : disk.x);
+        highest = std::max(highest, upright ? disk.y : disk.x);
+      }
+      const double margin = periodic ? 0.0 : radius;
+      EXPECT_TRUE(lowest >= margin && lowest < margin + 0.1) << lowest;
+      EXPECT_TRUE(highest <= length - margin && highest > length - margin - 0.1) << highest;
     }
-    const double margin = periodic_y ? 0.0 : radius;
-    EXPECT_TRUE(lowest >= margin && lowest < margin + 0.1) << lowest;
-    EXPECT_TRUE(highest <= height - margin && highest > height - margin - 0.1) << highest;
   }
 }
 
