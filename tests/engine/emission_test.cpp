@@ -68,6 +68,24 @@ TEST(EmissionSpeed, AlongTheSideKnowsNothingOfThatThroughIt) {
   EXPECT_NEAR(static_cast<double>(slanting) / n, share, 4.0 * std::sqrt(share * (1.0 - share) / n));
 }
 
+// One that moves has come in since the start: a disk touches it there and has its speed.
+TEST(EmissionPlace, IsWhereASideThatMovesIsThen) {
+  Scene s = scene_with_source();
+  SideMotion& motion = s.box.motions[static_cast<std::size_t>(Side::left)];
+  motion.kind = SideMotion::Kind::steady;
+  motion.speed = 0.75;
+  motion.furthest = 3.0;
+  s.sources[0].velocities = {};
+  State state;
+  state.sources.resize(1);
+  emit_due(s, state, 2.0, 7, [](const Disk&) { return true; });
+  ASSERT_EQ(state.disks.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(state.disks.x[i], 1.5 + radius);
+    EXPECT_EQ(state.disks.vx[i], 0.75);
+  }
+}
+
 TEST(EmissionRate, IsOfThoseThatHaveMore) {
   Scene s = scene_with_source();
   s.sources.push_back(s.sources.front());

@@ -1,0 +1,81 @@
+// What is kept and said of a step's figures, given by hand, and where walls are among them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/physics/contact_event.hpp"
+#include "core/step/step_start.hpp"
+#include "core/step/validity.hpp"
+#include "tests/support/scene_support.hpp"
+
+namespace carom {
+namespace {
+
+// Supports of a pile are met late without harm in a step that keeps them, with pairwise; not in a frame of rollback.
+TEST(StepFigures, OfAPileLateCollisionsAreSaidWithRollbackAlone) {
+  Scene scene = test::scene_from(test::sound_scene, {{"physics.gravity", "1.0"}, {"physics.restitution", "0.5"}});
+  for (const Method method : {Method::pairwise, Method::rollback}) {
+    scene.run.method = method;
+    State state;
+    state.counters.collisions = 100;
+    StepFigures figures;
+    figures.inaccurate = 20;
+    Validity validity;
+    validity.see_step(scene, figures, state);
+    EXPECT_EQ(validity.take_warnings().size(), method == Method::rollback ? 1U : 0U);
+  }
+}
+
+// Between walls that move, a disk that reaches deep into another is crushed as one that reaches into a wall.
+TEST(StepFigures, TheDeeperOfAWallAndADiskIsCrushed) {
+  Scene scene = test::scene_from(test::sound_scene, {{"run.method", "pairwise"}});
+  for (const bool moves : {true, false}) {
+    scene.box.motions[0].kind = moves ? SideMotion::Kind::steady : SideMotion::Kind::none;
+    for (const double of_wall : {0.26, 0.5}) {
+      State state;
+      StepFigures figures;
+      figures.left = {0.4, 1, 2};
+      figures.wall = {of_wall, 3, wall_partner(Side::left)};
+      Validity().see_step(scene, figures, state);
+      EXPECT_EQ(state.validity.crushed.overlap.size, moves ? std::max(0.4, of_wall) : 0.0);
+    }
+  }
+}
+
+// Time that stalls twice, and worse the second time: that moment is the one at the end.
+TEST(StepFigures, TheWorstStallOfRollbackIsKept) {
+  Scene scene = test::scene_from(test::sound_scene, {{"run.method", "rollback"}, {"physics.gravity", "0.0"}});
+  scene.run.dt = 1.0;
+  scene.run.t_end = 1e9;
+  State state;
+  Validity validity;
+  for (const double share : {0.04, 0.02, 0.03}) {
+    for (Count frame = 0; frame < frames_watched; ++frame) {
+      state.time += share;
+      validity.see_step(scene, {}, state);
+    }
+  }
+  EXPECT_EQ(validity.take_warnings().size(), 1U);
+  EXPECT_NEAR(state.validity.advance.figure, 0.02, 1e-9);
+}
+
+// Something presses disks into walls, or catches them between some.
+TEST(StepFigures, WallsAreWatchedWhereDisksMayBePressedIntoThem) {
+  const Scene plain = test::scene_from(test::sound_scene, {{"physics.gravity", "0.0"}});
+  EXPECT_FALSE(walls_are_watched(plain));
+  EXPECT_TRUE(walls_are_watched(test::scene_from(test::sound_scene, {{"physics.gravity", "0.1"}})));
+  Scene moving = plain;
+  moving.box.motions[0].kind = SideMotion::Kind::steady;
+  EXPECT_TRUE(walls_are_watched(moving));
+  Scene peg = plain;
+  State state;
+  Obstacle disk;
+  disk.x = disk.y = 5.0;
+  disk.radius = 0.5;
+  state.obstacles = {disk};
+  const auto obstacles = place_run_obstacles(peg, state);
+  EXPECT_TRUE(walls_are_watched(peg));
+}
+
+}  // namespace
+}  // namespace carom
