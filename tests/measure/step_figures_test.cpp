@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include "core/physics/contact_event.hpp"
 #include "core/step/step_start.hpp"
@@ -24,6 +26,37 @@ TEST(StepFigures, OfAPileLateCollisionsAreSaidWithRollbackAlone) {
     validity.see_step(scene, figures, state);
     EXPECT_EQ(validity.take_warnings().size(), method == Method::rollback ? 1U : 0U);
   }
+}
+
+// Of two disks what a step began with counts as well, as it is then pushed apart: it is kept, and said where it was
+// deep.
+TEST(StepFigures, AnOverlapBeforeAStepIsKeptAndSaid) {
+  const Scene scene = test::scene_from(test::sound_scene, {{"run.method", "pairwise"}});
+  for (const double before : {0.9 * largest_overlap_before, 1.1 * largest_overlap_before}) {
+    State state;
+    StepFigures figures;
+    figures.left = {0.5 * largest_overlap, 1, 2};
+    figures.before = {before, 0, 2};
+    Validity validity;
+    validity.see_step(scene, figures, state);
+    EXPECT_EQ(state.validity.disks.overlap.size, before);
+    EXPECT_EQ(validity.take_warnings().size(), before > largest_overlap_before ? 1U : 0U);
+    EXPECT_EQ(worst_moments(scene, state).size(), before > largest_overlap_before ? 1U : 0U);
+  }
+}
+
+// By exact it is a contact that was missed, when it is seen and at the end.
+TEST(StepFigures, AnOverlapWithAWallByExactIsAMissedContact) {
+  const Scene scene = test::scene_from(test::sound_scene, {{"run.method", "exact"}});
+  State state;
+  StepFigures figures;
+  figures.wall = {0.1, 1, wall_partner(Side::left)};
+  Validity validity;
+  validity.see_step(scene, figures, state);
+  const std::vector<std::string> said = validity.take_warnings();
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_NE(said[0].find("of its radius beyond the left wall: a contact was missed"), std::string::npos) << said[0];
+  EXPECT_EQ(worst_moments(scene, state), said);
 }
 
 // Between walls that move, a disk that reaches deep into another is crushed as one that reaches into a wall.
