@@ -132,9 +132,9 @@ void draw_colour_bar(cairo_t* c, const FrameStyle& style, const FrameLayout& lay
   cairo_fill(c);
   const std::string_view name = colour_names[static_cast<std::size_t>(style.look.colour)];
   draw_text(c, std::string(name), x, low - rows - 12.0 * u, 16.0 * u, Align::left);
-  // Disks beyond an end have its colour, where the scale was given or predicted.
+  // Disks beyond an end have its colour, where the scale was given or predicted. Nothing that has one is below 0.
   const bool given = style.look.range.has_value();
-  const bool open_low = given, open_high = given || style.look.colour == ColourBy::speed;
+  const bool open_low = given && style.low > 0.0, open_high = given || style.look.colour == ColourBy::speed;
   const int intervals = one_value ? 0 : intervals_of(style.low, style.high);
   for (int tick = 0; tick <= intervals; ++tick) {
     const double share = one_value ? 0.5 : static_cast<double>(tick) / intervals;

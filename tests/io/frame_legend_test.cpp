@@ -87,7 +87,11 @@ TEST(FrameLegend, EndsOfTheScaleSayWhatLiesBeyond) {
   style.look.colour = ColourBy::mass;
   EXPECT_EQ(words_in(style, high_words), listed("4"));
   style.look.range = {0.0, 4.0};
-  EXPECT_EQ(words_in(style, low_words), listed("≤ 0"));
+  EXPECT_EQ(words_in(style, low_words), listed("0")) << "no mass is less";
+  EXPECT_EQ(words_in(style, high_words), listed("≥ 4"));
+  style.look.range = {1.0, 4.0};
+  style.low = 1.0;
+  EXPECT_EQ(words_in(style, low_words), listed("≤ 1"));
   EXPECT_EQ(words_in(style, high_words), listed("≥ 4"));
 }
 
