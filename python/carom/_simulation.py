@@ -92,7 +92,7 @@ class Simulation:
 
     @property
     def wall_collisions(self) -> int:
-        """Of a disk and a wall."""
+        """Of a disk and a wall, or a fixed disk."""
         return self._sim.wall_collisions
 
     @property

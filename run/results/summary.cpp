@@ -91,7 +91,7 @@ const JsonKey<Summary> summary_keys[] = {
     {"steps", "", "steps done; with `exact`, windows", [](const Summary& s) -> Json { return s.counters.steps; }},
     {"time", "time", "simulated time at the end", [](const Summary& s) -> Json { return json_number(s.time); }},
     {"collisions", "", "of two disks", [](const Summary& s) -> Json { return s.counters.collisions; }},
-    {"wall_collisions", "", "of a disk and a wall",
+    {"wall_collisions", "", "of a disk and a wall, or a fixed disk",
      [](const Summary& s) -> Json { return s.counters.wall_collisions; }},
     {"wall_s", "s", "wall time of the whole run", [](const Summary& s) -> Json { return json_number(s.wall_s); }},
     {"cpu_s", "s", "processor time of the whole run", [](const Summary& s) -> Json { return json_number(s.cpu_s); }},
@@ -103,8 +103,8 @@ const JsonKey<Summary> summary_keys[] = {
     {"energy_final", "energy", "the same at the end; null likewise",
      [](const Summary& s) -> Json { return json_number(s.energy_final); }},
     {"momentum_drift", "",
-     "change of sum m v over sum m abs(v), the larger of start and end; kept to rounding where sides are periodic and "
-     "neither gravity nor sources give momentum; null likewise",
+     "change of sum m v over sum m abs(v), the larger of start and end; kept to rounding where sides are periodic, "
+     "without shear, and disks feel nothing but each other; null likewise",
      [](const Summary& s) -> Json { return json_number(s.momentum_drift); }},
     {"max_overlap", "", "largest overlap of two disks in the last state, over the sum of their radii; 0 if none",
      [](const Summary& s) -> Json { return json_number(s.max_overlap); }},
