@@ -13,6 +13,7 @@
 #include "core/base/check.hpp"
 #include "core/base/wall_clock.hpp"
 #include "core/scene/scene.hpp"
+#include "core/scene/scene_output.hpp"
 #include "core/scene/size_law.hpp"
 #include "io/checkpoint/checkpoint.hpp"
 #include "io/files/checkpoint_names.hpp"

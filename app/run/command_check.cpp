@@ -20,11 +20,11 @@
 #include "core/load/scene_check.hpp"
 #include "core/load/scene_scales.hpp"
 #include "core/measure/invariants.hpp"
+#include "core/scene/scene_output.hpp"
 #include "core/start/initial_state.hpp"
 #include "core/step/step_start.hpp"
 #include "core/step/validity.hpp"
 #include "run/engine/make_engine.hpp"
-#include "run/outputs/run_outputs.hpp"
 
 namespace carom {
 

@@ -318,9 +318,7 @@ OutputPlan read_output(const SceneOrigin& origin, const Scene& scene) {
   read_movie(reader, output);
   output.view = read_view(reader);
   output.checkpoint = read_checkpoint_interval(reader);
-  const bool frames =
-      output.trajectory != TrajectoryFormat::none || output.series || output.movie || !output.plots.empty();
-  output.every = reader.number("every").value_or(frames ? scene.run.t_end / 100.0 : 0.0);
+  output.every = reader.number("every").value_or(wants_frames(output) ? scene.run.t_end / 100.0 : 0.0);
   return output;
 }
 

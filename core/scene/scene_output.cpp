@@ -149,4 +149,8 @@ void read_movie(const TableReader& output, OutputPlan& plan) {
   }
 }
 
+bool wants_frames(const OutputPlan& plan) {
+  return plan.trajectory != TrajectoryFormat::none || plan.series || plan.movie || !plan.plots.empty();
+}
+
 }  // namespace carom

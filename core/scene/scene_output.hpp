@@ -24,6 +24,9 @@ bool read_third_dimension(const TableReader& output);
 // Whether "view" is true. Throws InputError where it is and no trajectory is written.
 bool read_view(const TableReader& output);
 
+// Whether the plan has anything that is made of frames: only then "every" is t_end / 100 where it is absent.
+bool wants_frames(const OutputPlan& plan);
+
 // "movie": whether there is one, and how it looks.
 void read_movie(const TableReader& output, OutputPlan& plan);
 

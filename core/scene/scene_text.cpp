@@ -7,6 +7,7 @@
 
 #include "core/scene/disk_group.hpp"
 #include "core/scene/scene_names.hpp"
+#include "core/scene/scene_output.hpp"
 
 namespace carom {
 
@@ -291,11 +292,14 @@ std::string movie_text(const OutputPlan& output) {
 }
 
 std::string output_text(const OutputPlan& output) {
+  // Without frames there is no time between them, and none to be taken over where some are asked for later.
+  const bool timed = output.every > 0.0 || wants_frames(output);
+  const std::string every = timed ? fmt::format("every = {}\n", decimal(output.every)) : "";
   const std::string checkpoint =
       output.checkpoint > 0.0 ? fmt::format("checkpoint = {}\n", decimal(output.checkpoint)) : "";
-  return fmt::format("\n[output]\nevery = {}\ntrajectory = \"{}\"\n{}series = {}\nplots = {}\nmovie = {}\n",
-                     decimal(output.every), trajectory_names[index(output.trajectory)], selection_lines(output),
-                     output.series, list_of(output.plots, [](const std::string& name) { return quoted_toml(name); }),
+  return fmt::format("\n[output]\n{}trajectory = \"{}\"\n{}series = {}\nplots = {}\nmovie = {}\n", every,
+                     trajectory_names[index(output.trajectory)], selection_lines(output), output.series,
+                     list_of(output.plots, [](const std::string& name) { return quoted_toml(name); }),
                      movie_text(output)) +
          (output.view ? "view = true\n" : "") + checkpoint;
 }

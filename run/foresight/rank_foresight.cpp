@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "core/disks/disk_columns.hpp"
+#include "core/scene/scene_output.hpp"
 #include "parallel/slabs/random_on_slabs.hpp"
 #include "parallel/slabs/slab_orders.hpp"
 #include "parallel/slabs/slab_start.hpp"
 #include "parallel/slabs/start_on_slabs.hpp"
-#include "run/outputs/run_outputs.hpp"
 
 namespace carom {
 

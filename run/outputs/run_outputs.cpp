@@ -12,6 +12,7 @@
 #include "core/scene/disk_group.hpp"
 #include "core/scene/drawn_velocities.hpp"
 #include "core/scene/scene_names.hpp"
+#include "core/scene/scene_output.hpp"
 
 namespace carom {
 
@@ -28,10 +29,6 @@ bool has_plot(const OutputPlan& plan, const char* name) {
 }
 
 }  // namespace
-
-bool wants_frames(const OutputPlan& plan) {
-  return plan.trajectory != TrajectoryFormat::none || plan.series || plan.movie || !plan.plots.empty();
-}
 
 bool wants_files(const Scene& scene) {
   return wants_frames(scene.output) || scene.analysis.any() || scene.output.checkpoint > 0.0;

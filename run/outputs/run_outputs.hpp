@@ -19,8 +19,7 @@
 
 namespace carom {
 
-// Whether a scene asks for any file that is made of frames; for any file at all.
-bool wants_frames(const OutputPlan& plan);
+// Whether a scene asks for any file at all.
 bool wants_files(const Scene& scene);
 
 class RunOutputs {

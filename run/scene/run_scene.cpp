@@ -10,6 +10,7 @@
 #include "core/base/check.hpp"
 #include "core/base/float_environment.hpp"
 #include "core/measure/energy_gain.hpp"
+#include "core/scene/scene_output.hpp"
 #include "core/scene/scene_text.hpp"
 #include "core/step/late_collisions.hpp"
 #include "core/step/validity.hpp"

@@ -217,6 +217,17 @@ TEST(SceneFile, FindsCsvBesideTheScene) {
   EXPECT_EQ(resolved_toml(scene_from(resolved_toml(s))), resolved_toml(s)) << "the CSV file is no longer needed";
 }
 
+// What is not used is not spelled out: who adds outputs to the scene.toml of a run without frames gets a hundred.
+TEST(ResolvedScene, HasATimeBetweenFramesOnlyWhereThereAreAny) {
+  const std::string ten = replaced(least_scene, "t_end = 3", "t_end = 10");
+  const std::string none = resolved_toml(scene_from(ten));
+  EXPECT_THAT(none, Not(HasSubstr("every")));
+  EXPECT_EQ(scene_from(none, {{"output.series", "true"}}).output.every, 0.1);
+  EXPECT_THAT(resolved_toml(scene_from(ten, {{"output.every", "2.5"}})), HasSubstr("every = 2.5\n"));
+  const std::string ends = resolved_toml(scene_from(ten, {{"output.series", "true"}, {"output.every", "0"}}));
+  EXPECT_THAT(ends, HasSubstr("every = 0.0\n")) << "the first and the last";
+}
+
 TEST(ResolvedScene, KeepsOddTitlesAndNumbers) {
   Scene s = scene_from(least_scene);
   s.title = "quote \" backslash \\ tab \t line \n bell \a é";
