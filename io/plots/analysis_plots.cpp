@@ -32,6 +32,12 @@ Line level(std::string name, double end, double value) {
   return {std::move(name), {0.0, end}, {value, value}, LineStyle::dashed};
 }
 
+// Says of which group's disks alone a quantity is.
+std::string heading_of(const Scene& scene, std::string subject) {
+  if (!scene.analysis.group.empty()) subject += " of " + scene.analysis.group;
+  return heading(scene.title, subject.c_str());
+}
+
 Figure pair_figure(const Scene& scene, const AnalysisRecord& record) {
   const BinnedCurve g = pair_correlation_curve(record.pairs, scene.analysis);
   Panel panel{.y_label = "g(r)", .from_zero = true};
@@ -42,7 +48,7 @@ Figure pair_figure(const Scene& scene, const AnalysisRecord& record) {
   }
   const double end = panel.lines[0].x.empty() ? scene.analysis.pairs.r_max : panel.lines[0].x.back();
   panel.lines.push_back(level("random", end, 1.0));
-  return {heading(scene.title, "pair correlation"), "distance r", end, {panel}};
+  return {heading_of(scene, "pair correlation"), "distance r", end, {panel}};
 }
 
 Figure speed_figure(const Scene& scene, const AnalysisRecord& record) {
@@ -59,7 +65,7 @@ Figure speed_figure(const Scene& scene, const AnalysisRecord& record) {
   Panel panel{.y_label = "probability density", .from_zero = true};
   panel.lines.push_back(line_of("measured", measured.middle, measured.value, LineStyle::points));
   panel.lines.push_back(line_of("Maxwell", maxwell.middle, maxwell.value));
-  return {heading(scene.title, "speeds"), "speed v, in units of sqrt(T / m)", measured.middle.back(), {panel}};
+  return {heading_of(scene, "speeds"), "speed v, in units of sqrt(T / m)", measured.middle.back(), {panel}};
 }
 
 Figure density_figure(const Scene& scene, const AnalysisRecord& record) {
@@ -70,8 +76,7 @@ Figure density_figure(const Scene& scene, const AnalysisRecord& record) {
   const SampleMean mean = sample_mean(packing.value);
   const double end = packing.middle.back();
   if (mean.samples > 0) panel.lines.push_back(level("mean", end, mean.mean));
-  return {
-      heading(scene.title, "density profile"), fmt::format("position {}", axis_names[along_x ? 0 : 1]), end, {panel}};
+  return {heading_of(scene, "density profile"), fmt::format("position {}", axis_names[along_x ? 0 : 1]), end, {panel}};
 }
 
 Figure series_figure(const Scene& scene, const AnalysisRecord& record, const std::vector<double>& values,
@@ -82,7 +87,7 @@ Figure series_figure(const Scene& scene, const AnalysisRecord& record, const std
   const double end = samples.x.empty() ? 0.0 : samples.x.back();
   const double mean = sample_mean(values, record.series.interval).mean;
   if (!samples.x.empty()) panel.lines.push_back({"mean", {samples.x.front(), end}, {mean, mean}, LineStyle::dashed});
-  return {heading(scene.title, subject), "time t", end, {panel}};
+  return {heading(scene.title, subject), "time t", end, {panel}};  // of all disks
 }
 
 Figure profile_figure(const Scene& scene, const AnalysisRecord& record) {
@@ -92,7 +97,7 @@ Figure profile_figure(const Scene& scene, const AnalysisRecord& record) {
   velocity.lines.push_back(line_of("vy", curves.position, curves.vy));
   temperature.lines.push_back(line_of("temperature", curves.position, curves.temperature));
   const bool along_x = scene.analysis.profile_along_x;
-  return {heading(scene.title, "velocity and temperature"),
+  return {heading_of(scene, "velocity and temperature"),
           fmt::format("position {}", axis_names[along_x ? 0 : 1]),
           curves.position.back(),
           {velocity, temperature},
@@ -111,7 +116,7 @@ Figure structure_figure(const Scene& scene, const AnalysisRecord& record) {
   add("along x", structure_along_x(record, scene));
   add("along y", structure_along_y(record, scene));
   panel.lines.push_back(level("ideal gas", end, 1.0));
-  return {heading(scene.title, "structure factor"), "wave number k", end, {panel}, false, ""};
+  return {heading_of(scene, "structure factor"), "wave number k", end, {panel}, false, ""};
 }
 
 Figure order_figure(const Scene& scene, const AnalysisRecord& record) {
@@ -119,7 +124,7 @@ Figure order_figure(const Scene& scene, const AnalysisRecord& record) {
   Panel panel{.y_label = "psi6", .from_zero = true};
   panel.lines.push_back(line_of("around each disk", series.time, series.local_order));
   panel.lines.push_back(line_of("of all", series.time, series.global_order));
-  return {heading(scene.title, "bond order"), "time t", series.time.empty() ? 1.0 : series.time.back(), {panel}};
+  return {heading_of(scene, "bond order"), "time t", series.time.empty() ? 1.0 : series.time.back(), {panel}};
 }
 
 Figure bond_figure(const Scene& scene, const AnalysisRecord& record) {
@@ -127,7 +132,7 @@ Figure bond_figure(const Scene& scene, const AnalysisRecord& record) {
   Panel panel{.y_label = "g6(r)"};
   panel.lines.push_back(line_of("g6(r)", curve.middle, curve.value));
   const double end = panel.lines[0].x.empty() ? scene.analysis.bonds.r_max : panel.lines[0].x.back();
-  return {heading(scene.title, "bond correlation"), "distance r", end, {panel}};
+  return {heading_of(scene, "bond correlation"), "distance r", end, {panel}};
 }
 
 Figure memory_figure(const Scene& scene, const AnalysisRecord& record, const std::vector<double>& values,
@@ -137,7 +142,7 @@ Figure memory_figure(const Scene& scene, const AnalysisRecord& record, const std
   std::vector<double> since;
   for (const double t : series.time) since.push_back(t - series.time.front());
   panel.lines.push_back(line_of(label, since, values));
-  return {heading(scene.title, subject), "time since the first sample", since.empty() ? 1.0 : since.back(), {panel}};
+  return {heading_of(scene, subject), "time since the first sample", since.empty() ? 1.0 : since.back(), {panel}};
 }
 
 // A power law through a point of the curve, over as much of the picture as lies within its heights.
@@ -168,7 +173,7 @@ Figure displacement_figure(const Scene& scene, const AnalysisRecord& record) {
     panel.lines.push_back(slope("~ t^2", curve, 0, 2.0));
     panel.lines.push_back(slope("~ t", curve, curve.x.size() - 1, 1.0));
   }
-  return {heading(scene.title, "displacement"), "time since the first sample", end, {panel}, true};
+  return {heading_of(scene, "displacement"), "time since the first sample", end, {panel}, true};
 }
 
 }  // namespace

@@ -63,6 +63,31 @@ TEST(AnalysisPlotData, PressureAndRateHaveTheirSamplesAndTheirMean) {
   EXPECT_THAT(rate.script, HasSubstr("set ylabel 'collisions per disk and unit time'"));
 }
 
+// Pressure and collision rate are those of all disks, whatever is selected.
+TEST(AnalysisPlotData, TheTitleNamesTheGroupThatIsMeasured) {
+  const std::vector<std::pair<std::string, std::string>> subjects{
+      {"pair_correlation", "pair correlation of A"},
+      {"displacement", "displacement of A"},
+      {"speeds", "speeds of A"},
+      {"density", "density profile of A"},
+      {"pressure", "pressure"},
+      {"collision_rate", "collision rate"},
+      {"profile", "velocity and temperature of A"},
+      {"velocity_autocorrelation", "velocity autocorrelation of A"},
+      {"structure_factor", "structure factor of A"},
+      {"bond_order", "bond order of A"},
+      {"bond_correlation", "bond correlation of A"},
+      {"bond_autocorrelation", "bond autocorrelation of A"}};
+  for (const auto& [quantity, subject] : subjects) {
+    Scene scene = scene_with(quantity);
+    scene.title = "gas";
+    const auto nothing = [](AnalysisRecord&) {};
+    EXPECT_THAT(drawn(scene, nothing).script, Not(HasSubstr(" of A'")));
+    scene.analysis.group = "A";
+    EXPECT_THAT(drawn(scene, nothing).script, HasSubstr(fmt::format("title 'gas: {}'", subject)));
+  }
+}
+
 TEST(AnalysisPlotData, OrderAndMemoryAreSeries) {
   const auto fill = [](AnalysisRecord& record) {
     record.series.time = {1.0, 2.0, 4.0};
