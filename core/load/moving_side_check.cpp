@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "core/base/input_message.hpp"
-#include "core/load/scene_check.hpp"
 #include "core/scene/scene_names.hpp"
+#include "core/scene/size_law.hpp"
 #include "core/scene/swept_room.hpp"
 
 namespace carom {

@@ -293,22 +293,6 @@ void check_parts(const Scene& scene, const PlaceOfKey& place) {
   check_thermostat(scene, place);
 }
 
-// Each law is monotonic.
-std::pair<DiskSize, DiskSize> source_sizes(const Source& source) {
-  const auto end_of = [](SizeLaw law, bool high) {
-    if (law.kind == SizeLaw::Kind::from_other) return law;
-    const SizeRange range = size_range(law);
-    law.kind = SizeLaw::Kind::constant;
-    law.value = high ? range.high : range.low;
-    return law;
-  };
-  const auto size = [&](bool high) {
-    return draw_size(end_of(source.radius, high), end_of(source.mass, high), 0, Stream::source_radius,
-                     Stream::source_mass, 0, 0);
-  };
-  return {size(false), size(true)};
-}
-
 namespace {
 
 // Warns where frames or samples are wanted at shorter intervals than dt. The default interval, a hundredth of the run,

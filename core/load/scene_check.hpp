@@ -2,12 +2,10 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/scene/place_of_key.hpp"
 #include "core/scene/scene.hpp"
-#include "core/scene/size_law.hpp"
 
 namespace carom {
 
@@ -18,9 +16,6 @@ void check_parts(const Scene& scene, const PlaceOfKey& place);
 // The box against the largest disk, and sources against the box. Precondition: check_parts passed, box.width and
 // box.height are known and positive. Throws InputError. Returns the largest radius that a disk of the scene can have.
 double check_box(const Scene& scene, const PlaceOfKey& place);
-
-// The least and the largest radius and mass that a source can give.
-std::pair<DiskSize, DiskSize> source_sizes(const Source& source);
 
 // What is no error, but may not be what was meant: keys that the scene's method does not use. One line each.
 std::vector<std::string> scene_warnings(const Scene& scene);

@@ -382,7 +382,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::str
   const double largest_radius = check_box(scene, place);
   settle_sides(scene, largest_radius, place);
   check_sweeps(scene, place);
-  settle_analysis(scene, largest_radius, place);
+  settle_analysis(scene, place);
   if (scene.run.automatic) {
     choose_run(scene, place);
     check_times(scene, place);  // of the step chosen

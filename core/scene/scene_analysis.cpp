@@ -8,6 +8,7 @@
 #include "core/base/input_message.hpp"
 #include "core/scene/scene_group_name.hpp"
 #include "core/scene/scene_names.hpp"
+#include "core/scene/size_law.hpp"
 
 namespace carom {
 
@@ -151,6 +152,22 @@ void settle_distances(const Scene& scene, DistancePlan& plan, const DefaultDista
   plan.wall_margin = plan.r_max + largest_radius;
 }
 
+// Of the disks that are measured: an obstacle is not, and where a group is selected no other disk.
+double largest_measured_radius(const Scene& scene) {
+  const IdRange& measured = scene.analysis.ids;
+  double largest = 0.0;
+  DiskId first_id = 0;
+  for (const DiskGroup& group : scene.groups) {
+    if (!group.fixed && measured.holds(first_id)) {
+      largest = std::max(largest, summarise_sizes(group, scene.seed, first_id).largest.radius);
+    }
+    first_id += static_cast<DiskId>(group.count);
+  }
+  if (!measured.holds(first_id)) return largest;
+  for (const Source& source : scene.sources) largest = std::max(largest, source_sizes(source).second.radius);
+  return largest;
+}
+
 void read_sample_times(const TableReader& reader, const Scene& scene, AnalysisPlan& plan) {
   const double usual = scene.output.every > 0.0 ? scene.output.every : scene.run.t_end / default_samples;
   plan.every = reader.number("every").value_or(usual);
@@ -223,8 +240,10 @@ AnalysisPlan read_analysis(const SceneOrigin& origin, const toml::table& table, 
   return plan;
 }
 
-void settle_analysis(Scene& scene, double largest_radius, const PlaceOfKey& place) {
+void settle_analysis(Scene& scene, const PlaceOfKey& place) {
   AnalysisPlan& plan = scene.analysis;
+  if (!plan.wants(Quantity::pair_correlation) && !plan.wants(Quantity::bond_correlation)) return;
+  const double largest_radius = largest_measured_radius(scene);
   if (plan.wants(Quantity::pair_correlation)) settle_distances(scene, plan.pairs, pair_defaults, largest_radius, place);
   if (plan.wants(Quantity::bond_correlation)) settle_distances(scene, plan.bonds, bond_defaults, largest_radius, place);
 }

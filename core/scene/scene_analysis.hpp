@@ -11,8 +11,8 @@ namespace carom {
 // InputError.
 AnalysisPlan read_analysis(const SceneOrigin& origin, const toml::table& table, const Scene& scene);
 
-// The rest, once the box is known: how far pairs are looked at, whether that fits into the box, and the bins.
-// largest_radius: of any disk that the scene can have. Throws InputError.
-void settle_analysis(Scene& scene, double largest_radius, const PlaceOfKey& place);
+// The rest, once the box is known: how far pairs are looked at, whether that fits into the box, and the bins. Throws
+// InputError.
+void settle_analysis(Scene& scene, const PlaceOfKey& place);
 
 }  // namespace carom

@@ -117,4 +117,20 @@ SizeSummary summarise_sizes(const DiskGroup& group, std::uint64_t seed, DiskId f
   return sum;
 }
 
+// Each law is monotonic.
+std::pair<DiskSize, DiskSize> source_sizes(const Source& source) {
+  const auto end_of = [](SizeLaw law, bool high) {
+    if (law.kind == SizeLaw::Kind::from_other) return law;
+    const SizeRange range = size_range(law);
+    law.kind = SizeLaw::Kind::constant;
+    law.value = high ? range.high : range.low;
+    return law;
+  };
+  const auto size = [&](bool high) {
+    return draw_size(end_of(source.radius, high), end_of(source.mass, high), 0, Stream::source_radius,
+                     Stream::source_mass, 0, 0);
+  };
+  return {size(false), size(true)};
+}
+
 }  // namespace carom

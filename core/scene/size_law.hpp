@@ -1,6 +1,8 @@
 // Radii and masses drawn from their laws.
 #pragma once
 
+#include <utility>
+
 #include "core/base/random.hpp"
 #include "core/scene/scene.hpp"
 
@@ -33,5 +35,8 @@ struct SizeSummary {
   double mass = 0.0, inverse_mass = 0.0;  // sums of m and of 1 / m, likewise; a fixed disk's are without meaning
 };
 SizeSummary summarise_sizes(const DiskGroup& group, std::uint64_t seed, DiskId first_id);
+
+// The least and the largest radius and mass that a source can give.
+std::pair<DiskSize, DiskSize> source_sizes(const Source& source);
 
 }  // namespace carom

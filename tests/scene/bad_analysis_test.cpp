@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "core/scene/scene_text.hpp"
 #include "tests/support/scene_support.hpp"
 
@@ -31,6 +33,26 @@ TEST(AnalysisScene, FillsInWhatIsNotSaidAndWritesItDown) {
   EXPECT_THAT(text, HasSubstr("pair_correlation = { r_max = 2.0, bins = 50 }\nspeeds = { max = 6.0, bins = 60 }\n"
                               "density = { axis = \"y\", bins = 50 }\n"));
   EXPECT_EQ(resolved_toml(scene_from(text)), text);
+}
+
+std::tuple<double, Count, double> numbers_of(const DistancePlan& plan) {
+  return {plan.r_max, plan.bins, plan.wall_margin};
+}
+
+// Pairs are looked at as if there were no other disks than those that are measured.
+TEST(AnalysisScene, DistancesAreOfTheDisksThatAreMeasured) {
+  const std::string large = "count = 1\npositions = [[14.0, 5.0]]\nradius = 2.0\n";
+  const std::string moving = large + "mass = 1.0\n";
+  const std::string wanted = "what = [\"pair_correlation\", \"bond_correlation\"]\n";
+  const AnalysisPlan alone = scene_from(with(wanted)).analysis;
+  const AnalysisPlan obstacle = scene_from(with(wanted + "[[disks]]\nfixed = true\n" + large)).analysis;
+  EXPECT_EQ(numbers_of(obstacle.pairs), numbers_of(alone.pairs)) << "a fixed disk is no part of g(r)";
+  EXPECT_EQ(numbers_of(obstacle.bonds), numbers_of(alone.bonds));
+  const AnalysisPlan both = scene_from(with(wanted + "[[disks]]\nname = \"large\"\n" + moving)).analysis;
+  EXPECT_EQ(both.pairs.wall_margin, both.pairs.r_max + 2.0);
+  const std::string selected = test::replaced(with(wanted + "select = \"small\"\n[[disks]]\n" + moving), "[[disks]]",
+                                              "[[disks]]\nname = \"small\"");
+  EXPECT_EQ(numbers_of(scene_from(selected).analysis.pairs), numbers_of(alone.pairs)) << "nor one of another group";
 }
 
 TEST(AnalysisScene, TakesWhatIsSaid) {
