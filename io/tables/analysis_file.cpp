@@ -100,9 +100,10 @@ void put_series(Hdf5Output& output, const AnalysisRecord& record, const Scene& s
   if (plan.wants(Quantity::pressure)) {
     const Group group(output, "/pressure");
     put_means(group, series.pressure, series.interval, "energy / length^2");
-    group.say("meaning",
-              "(kinetic energy + virial of the collisions and loads in the interval) / area of the box, or of the room "
-              "between sides that move");
+    group.say(
+        "meaning",
+        "(kinetic energy + virial of the collisions and loads in the interval / (2 interval)) / area of the box, or "
+        "of the room between sides that move");
   }
   if (plan.wants(Quantity::collision_rate)) {
     const Group group(output, "/collision_rate");
