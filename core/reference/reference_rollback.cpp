@@ -24,10 +24,11 @@ class RollbackPhases : public ReferenceEngine {
   const std::vector<ContactEvent>& find_approaching(const StepRules& rules, StepFigures& figures) {
     const PhaseTimer timer(times_, "search");
     events_ = contacts_after_drift(state_.disks, rules);
-    for (const ContactEvent& e : events_) {
-      if (!is_met(state_.disks, rules, e)) figures.left.see(parting_overlap(state_.disks, rules, e));
-    }
-    std::erase_if(events_, [&](const ContactEvent& e) { return !is_met(state_.disks, rules, e); });
+    std::erase_if(events_, [&](const ContactEvent& e) {
+      const bool met = is_met(state_.disks, rules, e);
+      see_overlaps(state_.disks, rules, e, met, figures);
+      return !met;
+    });
     std::sort(events_.begin(), events_.end(), event_order);
     contacts_ = contacts_per_disk(state_.disks.size(), events_);
     return events_;

@@ -8,6 +8,7 @@
 #include "core/base/check.hpp"
 #include "core/base/short_number.hpp"
 #include "core/physics/impact_tally.hpp"
+#include "core/step/overlap_before.hpp"
 
 namespace carom {
 
@@ -16,12 +17,13 @@ bool is_met(Disks& disks, const StepRules& rules, const ContactEvent& e) {
   return with_view(disks, rules, [&](const auto& d) { return relative(d, e.i1, e.i2, rules.box).approach() < 0.0; });
 }
 
-Overlap parting_overlap(Disks& disks, const StepRules& rules, const ContactEvent& e) {
-  if (is_wall(e.id2)) return {};
-  return with_view(disks, rules, [&](const auto& d) {
+void see_overlaps(Disks& disks, const StepRules& rules, const ContactEvent& e, bool met, StepFigures& figures) {
+  if (is_wall(e.id2)) return;
+  with_view(disks, rules, [&](const auto& d) {
+    if (met) return see_overlap_before(d, rules, e.i1, e.i2, figures);
     const double contact_distance = d.radius(e.i1) + d.radius(e.i2);
-    return Overlap{(contact_distance - std::sqrt(relative(d, e.i1, e.i2, rules.box).distance2())) / contact_distance,
-                   e.id1, e.id2};
+    const double distance = std::sqrt(distance2_of(d, e.i1, e.i2, rules.box));
+    figures.left.see({(contact_distance - distance) / contact_distance, e.id1, e.id2});
   });
 }
 

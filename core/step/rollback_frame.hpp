@@ -21,6 +21,11 @@ namespace carom {
 // Is the event a pair of disks that approaches (F8)? Walls do not make the system go back.
 bool is_met(Disks& disks, const StepRules& rules, const ContactEvent& event);
 
+// The overlaps that a contact of the frame shows, while all disks are where they drifted to: of a pair that is met,
+// what it had when the frame began, as a wall may have sent one disk into the other (F11); of any other pair that of
+// now, which nothing in the frame will see to. None of a wall.
+void see_overlaps(Disks& disks, const StepRules& rules, const ContactEvent& event, bool met, StepFigures& figures);
+
 // A pair found bounces by (23) where it is now, if it still approaches: with the velocities of the moment, not copies
 // (F3). A pair that has not yet touched bounces at a distance: F2, kept.
 template <class View>
@@ -36,9 +41,6 @@ PairImpact bounce_pair(const View& d, const StepRules& rules, std::uint32_t i, s
   see_shear_of(d, rules, i, j, r, before, impact);
   return impact;
 }
-
-// How far a pair that is not met overlaps; 0 for a wall. Nothing in the frame will see to it.
-Overlap parting_overlap(Disks& disks, const StepRules& rules, const ContactEvent& event);
 
 // Had the pair met not yet touched, now that all disks have gone back by `back` (F2)? Where one of its disks bounces in
 // another pair as well, it might never have.

@@ -34,9 +34,9 @@ class RollbackPhases : public TimeStepping {
     search(rules);
     gather(rules);
     keep_events(lists_, executor_, [&](const ContactEvent& e) {
-      if (is_met(state_.disks, rules, e)) return true;
-      figures.left.see(parting_overlap(state_.disks, rules, e));
-      return false;
+      const bool met = is_met(state_.disks, rules, e);
+      see_overlaps(state_.disks, rules, e, met, figures);
+      return met;
     });
     return lists_.events;
   }

@@ -11,6 +11,7 @@
 #include "core/base/check.hpp"
 #include "core/disks/state_hash.hpp"
 #include "core/load/scene_file.hpp"
+#include "core/measure/invariants.hpp"
 #include "core/reference/reference_rollback.hpp"
 #include "core/start/initial_state.hpp"
 #include "core/step/rollback_frame.hpp"
@@ -170,6 +171,28 @@ t_end = 1
     EXPECT_EQ(state_hash(parallel->state().disks), state_hash(reference->state().disks)) << frame;
   }
   EXPECT_LT(reference->state().time, 0.3) << "no frame was split";
+}
+
+// A wall sends one disk into another, which the next frame alone finds, and parts. No warning told of it.
+TEST(Rollback, SeesWhereAWallSendsADiskIntoAnother) {
+  const Scene scene = test::scene_of(Method::rollback, 10.0, 10.0, 1.0, 4.0);
+  const State start = test::state_of(scene, {{1.05, 5.0, -0.45, 0.0, 1.0, 1.0}, {3.06, 5.0, 0.0, 0.0, 1.0, 1.0}});
+  const auto reference = make_reference_rollback(scene, start);
+  const auto parallel = make_parallel_rollback(scene, start, {1});
+  Overlap deepest;
+  while (reference->state().time < scene.run.t_end) {
+    reference->step();
+    parallel->step();
+    deepest.see(deepest_overlap(reference->state().disks, scene.box));
+  }
+  EXPECT_NEAR(deepest.size, 0.17, 1e-12) << "the centres are 1.66 apart after the first frame";
+  for (Engine* const engine : {reference.get(), parallel.get()}) {
+    const Overlap& told = engine->state().validity.disks.overlap;
+    EXPECT_NEAR(told.size, deepest.size, 1e-12);
+    EXPECT_EQ(told.id1, 0U);
+    EXPECT_EQ(told.id2, 1U);
+    EXPECT_EQ(engine->take_warnings().size(), 1U);
+  }
 }
 
 TEST(StallGuard, LetsASlowRunGoOn) {
