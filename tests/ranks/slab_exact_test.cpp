@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "tests/support/slab_support.hpp"
@@ -181,6 +182,22 @@ TEST(SlabExact, HasTheBitsUnderGravity) {
     tall.features.tilted = tilted;
     EXPECT_GT(expect_bits_on_slabs(tall).collisions, 3000U);
   }
+}
+
+// A disk is put into the top, as if a contact had been missed: all ranks say so, whichever has it.
+TEST(SlabExact, SaysWhereADiskIsInAWall) {
+  TallBox tall{.sides = "wall", .t_end = 0.1};
+  tall.features.gravity = true;
+  const Scene scene = tall_scene(tall);
+  State start = initial_state(scene);
+  Disks& d = start.disks;
+  const auto highest = static_cast<std::size_t>(std::max_element(d.y.begin(), d.y.end()) - d.y.begin());
+  d.y[highest] = scene.box.height - 0.3 * d.radius_of(highest);
+  d.vx[highest] = d.vy[highest] = 0.0;
+  const SlabTrace expected = test::one_machine_trace(scene, start);
+  EXPECT_GT(expected.worst_wall.overlap.size, 0.1);
+  EXPECT_EQ(expected.warnings.size(), 1U);
+  run_on_local_ranks(3, [&](Ranks& ranks) { test::expect_same(expected, test::slab_trace(scene, start, {1}, ranks)); });
 }
 
 TEST(LongSlabExact, HasTheBitsWhereWallsMoveAndThingsStandInTheWay) {
