@@ -11,7 +11,9 @@
 #include "core/disks/state_hash.hpp"
 #include "core/load/scene_file.hpp"
 #include "core/start/initial_state.hpp"
+#include "parallel/ranks/local_ranks.hpp"
 #include "parallel/simulation.hpp"
+#include "parallel/slabs/whole_state.hpp"
 #include "tests/support/leading_support.hpp"
 #include "tests/support/same_counters.hpp"
 
@@ -335,6 +337,32 @@ TEST(StateOfRanks, GoesOnAfterAWriterGaveUp) {
       expect_whole_in_pieces(*engine);
     }
   });
+}
+
+// Two disks on two ranks, of which one is larger than any that the other rank has, or has left its slab.
+TEST(OverlapOverRanks, IsOfALargeDiskAndOfOneThatHasLeftItsSlab) {
+  Domain box;
+  box.width = 20.0;
+  box.height = 100.0;
+  const SlabCut cut{{0.0, 50.0, 100.0}};
+  struct Case {
+    double low, radius, high;
+  };
+  for (const Case& c : {Case{46.0, 5.0, 51.2}, Case{53.0, 0.5, 53.8}}) {
+    for (const bool turned : {false, true}) {
+      run_on_local_ranks(2, [&](Ranks& ranks) {
+        Disks own;
+        own.radius = {ranks.rank() == (turned ? 1 : 0) ? c.radius : 0.5};
+        const double y = ranks.rank() == (turned ? 1 : 0) ? c.low : c.high;
+        own.x = {10.0};
+        own.y = {turned ? box.height - y : y};
+        own.vx = own.vy = {0.0};
+        own.id = {static_cast<DiskId>(ranks.rank())};
+        const double expected = 1.0 - (c.high - c.low) / (c.radius + 0.5);
+        EXPECT_NEAR(overlap_over_ranks(ranks, box, own, cut).size, expected, 1e-12);
+      });
+    }
+  }
 }
 
 }  // namespace
