@@ -44,20 +44,8 @@ std::string motion_text(double speed, double acceleration, double gravity) {
   return gravity > 0.0 ? text + fmt::format(", {:.3g} times gravity's", acceleration / gravity) : text;
 }
 
-// All inner walls that move; empty: none.
-std::string inner_motion_text(const Scene& scene) {
-  double speed = 0.0;
-  double acceleration = 0.0;
-  for (const InnerWall& wall : scene.walls) {
-    speed = std::max(speed, wall.motion.largest_speed());
-    acceleration = std::max(acceleration, wall.motion.largest_acceleration());
-  }
-  if (!scene.box.inner_walls_move) return "";
-  return ", inner walls move" + motion_text(speed, acceleration, scene.physics.gravity.size);
-}
-
 // Restitution at walls: one for all, or each with the name of its side.
-std::string walls_text(const Domain& box, const Gravity& gravity) {
+std::string walls_text(const Domain& box) {
   std::string text;
   bool equal = true;
   std::optional<double> first;
@@ -69,16 +57,28 @@ std::string walls_text(const Domain& box, const Gravity& gravity) {
       text += fmt::format(", the {} wall at temperature {:g}", name, box.temperature(side));
       continue;
     }
-    if (box.moves(side)) {
-      const SideMotion& motion = box.motions[static_cast<std::size_t>(side)];
-      text += fmt::format(", the {} wall moves{}", name,
-                          motion_text(motion.largest_speed(), motion.largest_acceleration(), gravity.size));
-    }
-    equal = equal && !box.moves(side) && box.restitution(side) == first.value_or(box.restitution(side));
+    equal = equal && box.restitution(side) == first.value_or(box.restitution(side));
     if (!first) first = box.restitution(side);
     text += fmt::format(", {:g} at the {} wall", box.restitution(side), name);
   }
   return equal && first ? fmt::format(", {:g} at walls", *first) : text;
+}
+
+// Each side that moves, then the largest figures of all inner walls.
+std::string moving_walls_text(const Scene& scene) {
+  const double gravity = scene.physics.gravity.size;
+  std::string text;
+  for (const Side side : all_sides) {
+    const auto k = static_cast<std::size_t>(side);
+    const SideMotion& motion = scene.box.motions[k];
+    if (!scene.box.moves(side)) continue;
+    text += fmt::format("; the {} wall moves{}", side_names[k],
+                        motion_text(motion.largest_speed(), motion.largest_acceleration(), gravity));
+  }
+  if (!scene.box.inner_walls_move) return text;
+  double acceleration = 0.0;
+  for (const InnerWall& wall : scene.walls) acceleration = std::max(acceleration, wall.motion.largest_acceleration());
+  return text + "; inner walls move" + motion_text(fastest_inner_wall(scene), acceleration, gravity);
 }
 
 std::string gravity_text(const Gravity& g) {
@@ -121,9 +121,9 @@ std::string physics_text(const Scene& scene) {
   std::string text = gravity_text(p.gravity);
   const bool elastic = p.restitution == 1.0 && !p.law.dissipates();
   text += !elastic ? fmt::format("restitution {}", restitutions_text(scene)) : "elastic collisions";
-  const std::string walls = walls_text(scene.box, p.gravity);
+  const std::string walls = walls_text(scene.box);
   text += elastic && walls == ", 1 at walls" ? ", at walls too" : walls;
-  text += inner_motion_text(scene);
+  text += moving_walls_text(scene);
   text += surfaces_text(p.surfaces);
   if (p.diffusion > 0.0) {
     text += fmt::format("; Brownian motion, D = {:g}{}", p.diffusion, p.accumulate ? ", accumulating velocity" : "");

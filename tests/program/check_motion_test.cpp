@@ -24,9 +24,11 @@ class CheckOfMotion : public test::CommandTest {
 // Pieces of a parabola of height A over half a period h: 4 A / h at their ends, 8 A / h^2 all the time.
 TEST_F(CheckOfMotion, AFloorThatVibratesIsHeldAgainstGravity) {
   const std::string floor = "bottom = { motion = { vibrate = [0.0, 0.5], period = 2.0 } }\n";
-  EXPECT_THAT(report(floor + "[physics]\ngravity = 5.0\n", ""),
-              HasSubstr("the bottom wall moves at speeds up to 2, accelerations up to 4, 0.8 times gravity's"));
-  EXPECT_THAT(report(floor, ""), HasSubstr("the bottom wall moves at speeds up to 2, accelerations up to 4, 1 at"));
+  EXPECT_THAT(
+      report(floor + "[physics]\ngravity = 5.0\n", ""),
+      HasSubstr("elastic collisions, at walls too; the bottom wall moves at speeds up to 2, accelerations up to 4, "
+                "0.8 times gravity's\n"));
+  EXPECT_THAT(report(floor, ""), HasSubstr("the bottom wall moves at speeds up to 2, accelerations up to 4\n"));
 }
 
 // A sine: A w and A w^2, w = 2 pi / period.
@@ -34,12 +36,12 @@ TEST_F(CheckOfMotion, OfInnerWallsTheLargestCounts) {
   const std::string walls =
       "[[walls]]\nfrom = [1, 2]\nto = [9, 2]\nmotion = { vibrate = [0.3, 0.4], period = 2.0, shape = \"sine\" }\n"
       "[[walls]]\nfrom = [1, 8]\nto = [2, 8]\nmotion = { velocity = [0.5, 0.0] }\n";
-  EXPECT_THAT(report("", walls), HasSubstr("inner walls move at speeds up to 1.57, accelerations up to 4.93"));
+  EXPECT_THAT(report("", walls), HasSubstr("; inner walls move at speeds up to 1.57, accelerations up to 4.93\n"));
 }
 
 TEST_F(CheckOfMotion, ASteadySideHasASpeedAlone) {
   EXPECT_THAT(report("left = { motion = { velocity = [0.25, 0.0] } }\n", ""),
-              HasSubstr("the left wall moves at speeds up to 0.25, 1 at the left wall"));
+              HasSubstr("elastic collisions, at walls too; the left wall moves at speeds up to 0.25\n"));
 }
 
 }  // namespace
