@@ -175,7 +175,7 @@ void add_seen(ContactLists& lists) {
   for (const StepFigures& block : lists.seen) lists.figures.add(block);
 }
 
-bool any_deep(const ContactLists& lists) {
+bool any_marked(const ContactLists& lists) {
   return std::find(lists.largest.begin(), lists.largest.end(), 1.0) != lists.largest.end();
 }
 

@@ -117,8 +117,9 @@ void run_crowded(const Executor& executor, const ContactLists& lists, Task&& tas
 // Are there more impacts in the tallies than before? Sets `before` to their number.
 bool any_impact_since(Count& before, const std::vector<ImpactTally>& tallies);
 
-// Did the last sweep push a contact because it was deep? It sets lists.largest of the patch to 1 then.
-bool any_deep(const ContactLists& lists);
+// Has the last sweep, or pass, something to do again? It sets lists.largest of the patch to 1 then: where it pushed a
+// contact because it was deep, or an impact may have made others.
+bool any_marked(const ContactLists& lists);
 
 // The deepest overlap left to the contacts event(0) to event(n - 1) goes to lists.figures.
 template <class View, class Event>

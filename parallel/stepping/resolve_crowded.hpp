@@ -45,7 +45,7 @@ void resolve_crowded(const View& d, const StepRules& rules, const Disks& disks, 
       push_apart(d, rules.box, e, 0.0);
       lists.largest[q] = 1.0;
     });
-    if (!others.any(any_deep(lists))) break;
+    if (!others.any(any_marked(lists))) break;
   }
   see_overlaps_left(d, rules.box, lists.crowded.size(), executor, lists,
                     [&](std::size_t k) { return lists.crowded[k]; });

@@ -62,7 +62,8 @@ bool look_up_loads(const View& d, const State& state, const StepRules& rules, co
   return std::find(lists.largest.begin(), lists.largest.end(), 1.0) != lists.largest.end();
 }
 
-// Impacts in order of time. Whether a contact is a support is asked when its turn comes, as an impact before may have
+// Impacts in order of time, again where one of a crowded contact may have made others: what is alone changes no other
+// contact. Whether a contact is a support is asked when its turn comes, as an impact before may have
 // changed that. It is asked as if it had borne no load: a load counts for crowded contacts alone, and those that bore
 // one are not in the list.
 template <class View, class Others>
@@ -71,15 +72,17 @@ void resolve_impacts(const View& d, Disks& disks, const StepRules& rules, const 
   executor.sort(lists.crowded.begin(), lists.crowded.end(), event_order);
   place_crowded(disks, executor, lists, others);
   assign_amply(lists.tallies, lists.patches.count(), {});
-  Count before = 0;
   for (int pass = 0; pass < most_impact_passes; ++pass) {
+    assign_amply(lists.largest, lists.patches.count(), 0.0);
     const auto resolve_one = [&](const ContactEvent& e, std::size_t q) {
       const bool crowded = !is_alone(lists, e);
       if ((pass > 0 && !crowded) || is_support(d, rules, e, false, crowded)) return;
-      lists.tallies[q].add(e.id2, resolve_event(d, rules, e));
+      const Impact impact = resolve_event(d, rules, e);
+      lists.tallies[q].add(e.id2, impact);
+      if (crowded && has_happened(impact)) lists.largest[q] = 1.0;
     };
     run_crowded(executor, lists, resolve_one, others.before(Motions{disks}));
-    if (!others.any(any_impact_since(before, lists.tallies))) break;
+    if (!others.any(any_marked(lists))) break;
   }
   add_tallies(lists, others, tally);
   others.refresh(Motions{disks});
@@ -100,7 +103,7 @@ void push_contacts(const View& d, Disks& disks, const StepRules& rules, const Ex
       }
     };
     run_patches(lists.patches, false, executor, push_patch, others.before(Places{disks}));
-    if (!others.any(any_deep(lists))) break;
+    if (!others.any(any_marked(lists))) break;
   }
   others.refresh(Places{disks});
   see_overlaps_left(d, rules.box, settle.placed.size(), executor, lists,
