@@ -31,11 +31,14 @@ void WindowRun::load_paths(const WindowPlan& plan, const SpeedSummary& speeds, s
   if (slots_ != nullptr) {
     for (std::size_t i = 0; i < window_.spin.size(); ++i) window_.spin[i] = all_->disks.spin[(*slots_)[i]];
   }
+  const double safe_before2 = window_.safe_speed2;
   window_.safe_speed2 = lists_.safe_speed2(plan.length, window_.rules.gravity.size);
   window_.last_contact.resize(all_->last_contact.empty() ? 0 : d.size());
   window_.thermal_hits.resize(all_->thermal_hits.empty() ? 0 : d.size());
-  executor_.for_ranges(d.size(), pass_block,
-                       [&](std::size_t, std::size_t begin, std::size_t end) { load_disks(begin, end, plan); });
+  executor_.for_ranges(d.size(), pass_block, [&](std::size_t, std::size_t begin, std::size_t end) {
+    load_disks(begin, end, plan);
+    if (window_.fastest2 > window_.safe_speed2) predict_far_ones(begin, end, safe_before2);
+  });
 }
 
 // Disks [begin, end), which begin the window on new paths.
@@ -93,6 +96,18 @@ void WindowRun::load_times(std::size_t begin, std::size_t end, const WindowPlan&
   if (near == 0) return;
   for (std::size_t i = begin; i < end; ++i) {
     if ((lists_.rows().row(static_cast<std::uint32_t>(i)).sides & near) != 0) entry[i].time = 0.0;
+  }
+}
+
+// The times that are kept of disks [begin, end) do not know of images beyond the nearest ones, nor of crossing events,
+// where a disk was slow enough to do without: in a longer window it may come to them, and is predicted anew. Slow
+// enough were those up to safe_before2 (v^2), unless they have become faster on the way.
+void WindowRun::predict_far_ones(std::size_t begin, std::size_t end, double safe_before2) {
+  const bool get_faster = window_.rules.gravity.size > 0.0 || window_.rules.box.shear.acts();
+  for (std::size_t i = begin; i < end; ++i) {
+    const PathSegment& path = window_.record[i].path;
+    const double v2 = path.vx * path.vx + path.vy * path.vy;
+    if (v2 > window_.safe_speed2 && (get_faster || v2 <= safe_before2)) window_.entry[i].time = 0.0;
   }
 }
 

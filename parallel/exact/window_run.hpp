@@ -128,6 +128,7 @@ class WindowRun {
   void load_disks(std::size_t begin, std::size_t end, const WindowPlan& plan);
   void load_records(std::size_t begin, std::size_t end);
   void load_times(std::size_t begin, std::size_t end, const WindowPlan& plan);
+  void predict_far_ones(std::size_t begin, std::size_t end, double safe_before2);
   double early_by() const;
   unsigned bits_of_new_sides(double start) const;
   void mark_disks();
