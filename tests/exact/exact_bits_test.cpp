@@ -75,6 +75,44 @@ TEST(ExactBits, OfOneThatHitsTwoAtTheSameMoment) {
   EXPECT_GE(end.counters.collisions, 3U * rows * columns);
 }
 
+// A disk between a wall and a fixed one, neither of which it leaves: it comes to both at one moment again and again.
+// The fixed one is first, though the wall bounds for how long it is looked for.
+TEST(ExactBits, OfAFixedDiskAndAWallAtTheSameMoment) {
+  const Scene scene = parse_scene(R"([box]
+width = 12
+height = 6
+bottom = "periodic"
+top = "periodic"
+wall_restitution = 0
+[physics]
+gravity = 1
+[[disks]]
+fixed = true
+count = 1
+positions = [[11, 0.5]]
+radius = 0.125
+[[disks]]
+count = 2
+positions = [[11.75, 1.9697732266236629], [11.327221210146591, 1.3385502021886884]]
+velocities = [[0, -1.0348935313515297], [1.8447193148856498, 0.18949405500704941]]
+radius = [0.25, 0.5]
+mass = 1
+[run]
+method = "exact"
+t_end = 0.5
+)",
+                                  "test", ".");
+  const State start = initial_state(scene);
+  const auto reference = make_reference_exact(scene, start);
+  reference->step();
+  EXPECT_LT(reference->state().time, 0.2) << "the window was not crowded";
+  for (const int threads : {1, 3}) {
+    const auto engine = make_parallel_engine(scene, start, {threads, 128});
+    engine->step();
+    EXPECT_EQ(fingerprint(engine->state()), fingerprint(reference->state()));
+  }
+}
+
 // Disks of a dilute gas fly further than across a list, and lists are built anew while it is known when disks come to
 // their next events: in some windows one leaves the place where it is listed before that.
 TEST(ExactBits, OfAFallThroughListsThatAreBuiltAnew) {
