@@ -216,8 +216,38 @@ Shape wallflowers_of(Dice& dice, double r) {
   return shape;
 }
 
+// Places and radii that are whole multiples of half a radius: many events come at one time, and disks touch that pass.
+Shape grid_of(Dice& dice, double r) {
+  Shape shape;
+  const std::size_t columns = 12 + dice.below(13);  // half radii
+  const std::size_t rows = 12 + dice.below(13);
+  shape.width = 0.5 * r * static_cast<double>(columns);
+  shape.height = 0.5 * r * static_cast<double>(rows);
+  const auto is_free = [&](Vec2 place, double radius) {
+    if (place.x + radius > shape.width || place.y + radius > shape.height) return false;
+    for (std::size_t k = 0; k < shape.places.size(); ++k) {
+      const double dx = place.x - shape.places[k].x, dy = place.y - shape.places[k].y;
+      const double contact = radius + shape.radii[k];
+      if (dx * dx + dy * dy < contact * contact * (1.0 - 1e-12)) return false;
+    }
+    return true;
+  };
+  const double share_of_small = dice.pick({0.0, 0.2});
+  const std::size_t tries = 2 + dice.below(60);
+  for (std::size_t k = 0; k < tries || shape.places.empty(); ++k) {
+    const double radius = dice.chance(share_of_small) ? 0.5 * r : r;
+    const Vec2 place{radius + 0.5 * r * static_cast<double>(dice.below(columns)),
+                     radius + 0.5 * r * static_cast<double>(dice.below(rows))};
+    if (!is_free(place, radius)) continue;
+    shape.places.push_back(place);
+    shape.radii.push_back(radius);
+  }
+  if (share_of_small == 0.0) shape.radii.clear();
+  return shape;
+}
+
 Shape random_shape(Dice& dice, double r) {
-  switch (dice.below(6)) {
+  switch (dice.below(8)) {
     case 0:
       return block_of(r, 2 + dice.below(11), 1);
     case 1:
@@ -230,15 +260,17 @@ Shape random_shape(Dice& dice, double r) {
       return heap_of(r, 2 + dice.below(5));
     case 4:
       return chain_of(dice, r, 2 + dice.below(11));
-    default:
+    case 5:
       return wallflowers_of(dice, r);
+    default:
+      return grid_of(dice, r);
   }
 }
 
 std::vector<Vec2> listed_velocities(Dice& dice, const Units& units, std::size_t disks) {
   std::vector<Vec2> list(disks);
   const auto speed = [&] { return rounded(units.speed * dice.in(-1.0, 1.0)); };
-  switch (dice.below(4)) {
+  switch (dice.below(5)) {
     case 0: {  // one flies, the others wait
       const std::size_t first = dice.below(disks);
       list[first] = {speed(), dice.chance(0.5) ? 0.0 : speed()};
@@ -250,6 +282,11 @@ std::vector<Vec2> listed_velocities(Dice& dice, const Units& units, std::size_t 
     case 2:
       for (Vec2& v : list) v = {speed(), speed()};
       break;
+    case 3: {  // on a grid, too
+      const auto step = [&] { return units.speed * dice.pick({-1.0, -0.5, 0.0, 0.5, 1.0}); };
+      for (Vec2& v : list) v = {step(), step()};
+      break;
+    }
     default:  // all at rest
       break;
   }
