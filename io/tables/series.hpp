@@ -10,13 +10,14 @@
 #include "core/measure/invariants.hpp"
 #include "core/scene/drawn_velocities.hpp"
 #include "core/scene/scene.hpp"
+#include "core/scene/scene_sinks.hpp"
 #include "io/files/file_mark.hpp"
 #include "io/files/output_file.hpp"
+#include "io/tables/column_text.hpp"
 #include "io/tables/group_columns.hpp"
 #include "io/tables/rotation_columns.hpp"
 #include "io/tables/shear_columns.hpp"
 #include "io/tables/side_columns.hpp"
-#include "io/tables/sink_columns.hpp"
 
 namespace carom {
 
@@ -56,7 +57,9 @@ inline constexpr std::array<SeriesColumn, 18> series_columns{{
     {"force_top", false, "force", "likewise on the ceiling"},
 }};
 inline constexpr const char* displacement_column = "displacement";  // behind them, where [analysis] asks for it
-using SeriesRow = std::array<double, series_columns.size()>;        // counts are exact up to 2^53
+// Then one a sink: its name is this one's, an underscore, and the sink's.
+inline constexpr ColumnText taken_column{"removed_by", "", "disks that a sink has taken, since the start"};
+using SeriesRow = std::array<double, series_columns.size()>;  // counts are exact up to 2^53
 
 inline constexpr std::size_t kinetic_column = 1, potential_column = 2, total_column = 3;
 inline constexpr std::size_t collisions_column = 6, wall_collisions_column = 7;

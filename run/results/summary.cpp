@@ -12,7 +12,7 @@
 #include "core/disks/state_hash.hpp"
 #include "core/scene/drawn_velocities.hpp"
 #include "core/scene/scene_names.hpp"
-#include "io/tables/sink_columns.hpp"
+#include "core/scene/scene_sinks.hpp"
 #include "parallel/slabs/leading_engine.hpp"
 
 namespace carom {

@@ -1,4 +1,4 @@
-#include "io/tables/sink_columns.hpp"
+#include "core/scene/scene_sinks.hpp"
 
 #include <fmt/format.h>
 

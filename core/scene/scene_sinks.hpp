@@ -1,4 +1,4 @@
-// How many disks each sink of a scene took, as tables tell it.
+// The sinks of a scene by name.
 #pragma once
 
 #include <string>
@@ -6,12 +6,8 @@
 
 #include "core/disks/state.hpp"
 #include "core/scene/scene.hpp"
-#include "io/tables/column_text.hpp"
 
 namespace carom {
-
-// A column's name is this one's, an underscore, and the sink's.
-inline constexpr ColumnText taken_column{"removed_by", "", "disks that a sink has taken, since the start"};
 
 struct SceneSink {
   SinkNumber number;
