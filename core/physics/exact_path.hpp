@@ -143,6 +143,12 @@ inline double time_to_crossing(Side side, const PathSegment& p, const Domain& bo
   return this_side ? 2.0 * flight / (fast + root) : never;
 }
 
+// For how long after `start` to look for what is to come by `end`: whatever rounds to it, too, so that two who look up
+// to different ends find the same. Time.
+inline double span_until(double start, double end) {
+  return (end - start) + 0x1p-52 * std::abs(end);
+}
+
 // A path and a moving side, at the start of the path. box.places: of the sides at the start of the window.
 struct SideApproach {
   SidePlace place;  // of the side
@@ -173,7 +179,7 @@ inline double time_to_moving_side(const PathSegment& p, Side side, double radius
 inline double side_time(const PathSegment& p, Side side, double radius, const Domain& box, const Gravity& g,
                         double end) {
   if (box.moves(side)) {
-    const double s = p.start + time_to_moving_side(p, side, radius, box, g, end - p.start);
+    const double s = p.start + time_to_moving_side(p, side, radius, box, g, span_until(p.start, end));
     return s <= end ? s : never;
   }
   const SideKind kind = box.side(side);

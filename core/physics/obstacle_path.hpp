@@ -249,8 +249,7 @@ template <class NearStart>
 ObstacleContact first_obstacle_contact(const PathSegment& p, double radius, const Domain& box, const Gravity& g,
                                        double end, double margin, NearStart&& near_start) {
   const ObstacleCells& obstacles = *box.obstacles;
-  // So that a contact is found, however it lies within rounding of `end`, where another event comes at the same time.
-  const double span = std::nextafter(end, HUGE_VAL) - p.start;
+  const double span = span_until(p.start, end);
   const double grip = obstacles.has_sinks() ? grip_of_sink(radius, box) : 0.0;
   const double cell = obstacles.cell();
   const double reach = radius + 1e-9 * (radius + cell) + std::max(grip, margin);

@@ -113,6 +113,31 @@ t_end = 0.5
   }
 }
 
+// Where a wall turns that vibrates as a sine, a row of touching disks comes to it at the window's end: the first meets
+// it twice, the second time within rounding of the end.
+TEST(ExactBits, OfContactsWithASineAtTheEndOfAWindow) {
+  const Scene scene = parse_scene(R"([box]
+width = 16
+height = 6
+right = { motion = { vibrate = [0.5, 0], period = 2, shape = "sine" } }
+[[disks]]
+count = 3
+positions = [[14.75, 4], [13.75, 4], [12.75, 4]]
+velocities = [[1, 0], [1, 0], [1, 0]]
+radius = 0.5
+mass = 1
+[run]
+method = "exact"
+t_end = 1
+)",
+                                  "test", ".");
+  State start = initial_state(scene);
+  start.time = 0.75;
+  start.window = 10.0;
+  const State end = expect_bits_of_reference(scene, start);
+  EXPECT_EQ(end.counters.collisions, 3U);
+}
+
 // Disks of a dilute gas fly further than across a list, and lists are built anew while it is known when disks come to
 // their next events: in some windows one leaves the place where it is listed before that.
 TEST(ExactBits, OfAFallThroughListsThatAreBuiltAnew) {
