@@ -112,13 +112,10 @@ std::string series_rows() {
       "\n## Columns of series.csv\n\n`series = true` in `[output]` writes one row a frame; trajectory.h5 has the same "
       "under `/observables`, without `displacement`, what each sink took, heat and work of sides, what inner walls "
       "and a thermostat give, and what there is only with `shear_rate`. Numbers have all digits that they need to be "
-      "read back as they "
-      "were. The state of a row "
-      "is that of its time; what is counted or summed since the start, and means since the row before, are up to the "
-      "end of the step or window that this time lies in, with `exact` about two collisions a disk later at most (32 in "
-      "all where disks are few); rows within one window of it repeat the means.\n\n| column | unit | what it is |\n| "
-      "--- | --- | --- |\n| `t` | time | simulated time "
-      "|\n";
+      "read back as they were. The state of a row is that of its time; what is counted or summed since the start, and "
+      "means since the row before, are up to the end of the step or window that this time lies in, with `exact` about "
+      "two collisions a disk later at most (32 in all where disks are few); rows within one window of it repeat the "
+      "means.\n\n| column | unit | what it is |\n| --- | --- | --- |\n| `t` | time | simulated time |\n";
   for (const SeriesColumn& column : series_columns) {
     text += fmt::format("| `{}` | {} | {} |\n", column.name, column.unit, column.meaning);
   }

@@ -36,6 +36,15 @@ inline void count_taken(SinkCounts& counts, SinkNumber sink, Count disks = 1) {
   counts[sink] += disks;
 }
 
+// Counts the disks i of [begin, end) with gone[i] != 0, each for the sink sink_of(i).
+template <class SinkOf>
+void count_gone(const std::vector<unsigned char>& gone, std::size_t begin, std::size_t end, SinkCounts& taken,
+                SinkOf&& sink_of) {
+  for (std::size_t i = begin; i < end; ++i) {
+    if (gone[i] != 0) count_taken(taken, sink_of(i));
+  }
+}
+
 inline void add(SinkCounts& counts, const SinkCounts& more) {
   for (std::size_t k = 0; k < more.size(); ++k) count_taken(counts, static_cast<SinkNumber>(k), more[k]);
 }

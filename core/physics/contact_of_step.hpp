@@ -100,10 +100,6 @@ inline SinkNumber sink_of(const Domain& box, DiskId partner) {
   return box.side(side) == SideKind::sink ? sink_number(side) : no_sink;
 }
 
-inline bool is_sink(const Domain& box, DiskId partner) {
-  return sink_of(box, partner) != no_sink;
-}
-
 // A sink that lies along a wall, or before it, is an opening in it: disk i meets walls only that it lies in by more
 // than this, the depth by which it lies in an inner sink, with what rounding may add; length. Negative: it touches
 // none.

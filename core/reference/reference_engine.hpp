@@ -44,8 +44,6 @@ class ReferenceEngine : public Engine {
   PhaseTimes times_;
   Validity validity_;
   std::vector<ContactEvent> events_;  // of the last search
-
- private:
 };
 
 }  // namespace carom

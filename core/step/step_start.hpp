@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
-#include <vector>
 
 #include "core/base/random.hpp"
 #include "core/disks/disk_view.hpp"
@@ -129,15 +128,6 @@ SinkNumber sink_touched(const View& d, const Domain& box, std::size_t i) {
     if (sink && reach_beyond(side, d.x[i], d.y[i], d.radius(i), box) >= 0.0) return sink_number(side);
   }
   return inner_sink_touched(box, d.x[i], d.y[i], d.radius(i));
-}
-
-// Counts the disks i of [begin, end) with gone[i] != 0, each for the sink sink_of(i).
-template <class SinkOf>
-void count_gone(const std::vector<unsigned char>& gone, std::size_t begin, std::size_t end, SinkCounts& taken,
-                SinkOf&& sink_of) {
-  for (std::size_t i = begin; i < end; ++i) {
-    if (gone[i] != 0) count_taken(taken, sink_of(i));
-  }
 }
 
 // Is there anything that takes disks away?

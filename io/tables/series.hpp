@@ -42,8 +42,7 @@ inline constexpr std::array<SeriesColumn, 18> series_columns{{
     {"pressure", false, "energy / area",
      "from the kinetic energy of this row (relative to a shear flow) and all collisions since the row before, over the "
      "area of the whole box, fixed disks and all, or where sides move of the room between them; 0 in the first; nan "
-     "likewise. A row in the same window of exact "
-     "repeats it"},
+     "likewise. A row in the same window of exact repeats it"},
     {"collision_rate", false, "1 / time",
      "collisions a disk takes part in per unit time, mean since the row before; of Brownian disks it grows as 1 / "
      "sqrt(dt)"},

@@ -203,6 +203,7 @@ void SlabExact::finish(const WindowPlan& plan) {
   const bool any_gone = remove_gone();
   if (any_gone) at_start_ = std::move(at_start);
   sum_over_ranks(ranks_, scene_.box, tally);
+  // Here, as finish_window knows of this rank alone.
   if (any_gone) count_taken_on_ranks(ranks_, std::exchange(tally.taken, {}), state_.taken);
   finish_window(state_, start_.disks, plan, tally);
   StepFigures figures;

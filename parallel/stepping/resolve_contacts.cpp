@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <utility>
 
 #include "core/physics/push_apart.hpp"
 #include "core/physics/resting.hpp"
@@ -164,12 +163,6 @@ double finish_crowded(const View& d, const Domain& box, const Executor& executor
 }
 
 }  // namespace
-
-bool any_impact_since(Count& before, const std::vector<ImpactTally>& tallies) {
-  Count now = 0;
-  for (const ImpactTally& t : tallies) now += t.collisions + t.wall_collisions;
-  return std::exchange(before, now) != now;
-}
 
 void add_seen(ContactLists& lists) {
   for (const StepFigures& block : lists.seen) lists.figures.add(block);

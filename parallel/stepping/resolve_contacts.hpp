@@ -114,10 +114,7 @@ void run_crowded(const Executor& executor, const ContactLists& lists, Task&& tas
   run_crowded(executor, lists, task, [](std::uint32_t /*phase*/, bool /*backwards*/) {});
 }
 
-// Are there more impacts in the tallies than before? Sets `before` to their number.
-bool any_impact_since(Count& before, const std::vector<ImpactTally>& tallies);
-
-// Has the last sweep, or pass, something to do again? It sets lists.largest of the patch to 1 then: where it pushed a
+// Has the last sweep, or pass, left something to do? It sets lists.largest of the patch to 1 then: where it pushed a
 // contact because it was deep, or an impact may have made others.
 bool any_marked(const ContactLists& lists);
 

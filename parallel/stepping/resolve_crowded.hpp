@@ -26,13 +26,14 @@ void resolve_crowded(const View& d, const StepRules& rules, const Disks& disks, 
   if (others.alone && lists.crowded.empty()) return;
   place_crowded(disks, executor, lists);
   assign_amply(lists.tallies, lists.patches.count(), {});
-  Count before = 0;
   for (int pass = 0; pass < most_impact_passes; ++pass) {
+    assign_amply(lists.largest, lists.patches.count(), 0.0);
     run_crowded(executor, lists, [&](const ContactEvent& e, std::size_t q) {
       const Impact impact = resolve_event(d, rules, e);
       if (others.counts(e)) lists.tallies[q].add(e.id2, impact);
+      if (has_happened(impact)) lists.largest[q] = 1.0;
     });
-    if (!others.any(any_impact_since(before, lists.tallies))) break;
+    if (!others.any(any_marked(lists))) break;
   }
   for (const ImpactTally& t : lists.tallies) tally.add(t);
   executor.sort(lists.crowded.begin(), lists.crowded.end(), ids_order);

@@ -59,13 +59,13 @@ bool look_up_loads(const View& d, const State& state, const StepRules& rules, co
   });
   add_seen(lists);
   join_crowded(blocks, lists);
-  return std::find(lists.largest.begin(), lists.largest.end(), 1.0) != lists.largest.end();
+  return any_marked(lists);
 }
 
 // Impacts in order of time, again where one of a crowded contact may have made others: what is alone changes no other
-// contact. Whether a contact is a support is asked when its turn comes, as an impact before may have
-// changed that. It is asked as if it had borne no load: a load counts for crowded contacts alone, and those that bore
-// one are not in the list.
+// contact. Whether a contact is a support is asked when its turn comes, as an impact before may have changed that. It
+// is asked as if it had borne no load: a load counts for crowded contacts alone, and those that bore one are not in the
+// list.
 template <class View, class Others>
 void resolve_impacts(const View& d, Disks& disks, const StepRules& rules, const Executor& executor, ContactLists& lists,
                      ImpactTally& tally, Others& others) {
