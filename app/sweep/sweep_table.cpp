@@ -17,12 +17,12 @@ constexpr std::array<const char*, 18> table_keys{
     "particles",    "steps",          "time",        "collisions",   "wall_collisions", "energy_initial",
     "energy_final", "momentum_drift", "max_overlap", "wall_overlap", "pressure",        "collision_rate",
     "removed",      "emitted",        "waiting",     "warnings",     "step_s",          "state_hash"};
-// What only some scenes have; of sides and sinks an object.
-constexpr std::array<const char*, 6> special_keys{"removed_by", "heat",      "thermostat_heat",
-                                                  "work",       "wall_work", "shear_work"};
+// What only some scenes have; of sides, sinks and an analysis an object.
+constexpr std::array<const char*, 7> special_keys{"removed_by", "heat",       "thermostat_heat", "work",
+                                                  "wall_work",  "shear_work", "analysis"};
 
 struct SpecialColumn {
-  std::string key, part;  // part: a side or sink; empty where the summary has a number
+  std::string key, part;  // part: a side, a sink, what an analysis measured; empty where the summary has a number
   bool operator==(const SpecialColumn&) const = default;
 };
 

@@ -9,6 +9,8 @@ void GroupTally::add(const Disks& d, std::span<const std::size_t> members) {
   for (const std::size_t i : members) {
     const double m = d.mass_of(i);
     mass_ += m;
+    mx_ += m * d.x[i];
+    my_ += m * d.y[i];
     px_ += m * d.vx[i];
     py_ += m * d.vy[i];
     kinetic_ += 0.5 * m * (d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
@@ -25,9 +27,14 @@ void GroupTally::add_thermal(const Disks& d, std::span<const std::size_t> member
 }
 
 GroupMotion GroupTally::motion() const {
+  GroupMotion motion;
+  motion.kinetic = kinetic_;
+  motion.disks = count_;
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-  if (count_ == 0) return {kinetic_, nothing, {nothing, nothing}, count_};
-  return {kinetic_, thermal_ / static_cast<double>(count_), velocity(), count_};
+  motion.temperature = count_ > 0 ? thermal_ / static_cast<double>(count_) : nothing;
+  motion.velocity = count_ > 0 ? velocity() : Vec2{nothing, nothing};
+  motion.centre = count_ > 0 ? Vec2{mx_ / mass_, my_ / mass_} : Vec2{nothing, nothing};
+  return motion;
 }
 
 }  // namespace carom

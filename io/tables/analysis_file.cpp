@@ -6,7 +6,7 @@
 #include "core/base/blocking_error.hpp"
 #include "core/base/sample_mean.hpp"
 #include "core/measure/analysis_curves.hpp"
-#include "core/measure/diffusion_fit.hpp"
+#include "core/measure/measured_means.hpp"
 #include "core/scene/scene_names.hpp"
 #include "core/scene/scene_text.hpp"
 #include "io/files/output_file.hpp"
@@ -88,10 +88,9 @@ void put_series(Hdf5Output& output, const AnalysisRecord& record, const Scene& s
     const Group group(output, "/displacement");
     group.numbers("mean_square", series.displacement, "length^2");
     group.counts("disks", series.followed);
-    const bool sheared = scene.box.shear.acts();
     group.say("meaning", std::string("since the first sample; of the disks of that time that are still there") +
-                             (sheared ? "; along y alone, across the shear flow" : ""));
-    const DiffusionFit fit = fit_diffusion(series.time, series.displacement, sheared ? 1.0 : 2.0);
+                             (scene.box.shear.acts() ? "; along y alone, across the shear flow" : ""));
+    const DiffusionFit fit = diffusion_of(record, scene);
     group.say("diffusion", fit.value);
     group.say("diffusion_error", fit.error);
     group.say("diffusion_from", fit.from);

@@ -12,13 +12,24 @@ namespace carom {
 std::vector<GroupColumn> group_column_kinds() {
   return {
       {"disks", true, "", "disks of the group in the box"},
-      {"kinetic", false, "energy", "their sum of m v^2 / 2; nan for Brownian motion, here and below"},
+      {"kinetic", false, "energy", "their sum of m v^2 / 2; like the next three nan for Brownian motion"},
       {"temperature", false, "energy",
        "mean kinetic energy of one of them, measured from their mean velocity, in a shear flow of velocities relative "
        "to that; nan without disks, here and below"},
       {"vx", false, "length / time", "their mean velocity, momentum over mass"},
-      {"vy", false, "length / time", "likewise"}};
+      {"vy", false, "length / time", "likewise"},
+      {"x", false, "length", "x of their centre of mass; only where left and right are not periodic"},
+      {"y", false, "length", "y of it; only where bottom and top are not periodic"}};
 }
+
+namespace {
+
+// A mean place along a periodic axis would depend on where the box is cut.
+bool has_column(const Domain& box, const std::string& kind) {
+  return kind == "x" ? !box.periodic_x() : kind == "y" ? !box.periodic_y() : true;
+}
+
+}  // namespace
 
 GroupMeter::GroupMeter(const Scene& scene)
     : groups_(reported_groups(scene)), drawn_(velocities_are_drawn(scene)), box_(scene.box) {}
@@ -27,6 +38,7 @@ std::vector<GroupColumn> GroupMeter::columns() const {
   std::vector<GroupColumn> columns;
   for (const NamedGroup& group : groups_) {
     for (GroupColumn kind : group_column_kinds()) {
+      if (!has_column(box_, kind.name)) continue;
       kind.name += "_" + group.name;
       columns.push_back(kind);
     }
@@ -72,6 +84,8 @@ std::vector<double> GroupMeter::row(const DisksInPieces& disks) const {
     for (const double v : {motion.kinetic, motion.temperature, motion.velocity.x, motion.velocity.y}) {
       row.push_back(of_velocities(v));
     }
+    if (!box_.periodic_x()) row.push_back(motion.centre.x);
+    if (!box_.periodic_y()) row.push_back(motion.centre.y);
   }
   return row;
 }

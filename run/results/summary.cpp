@@ -41,6 +41,15 @@ Json removed_by(const Summary& s) {
   return counts;
 }
 
+Json means_of(const Summary& s) {
+  Json means = Json::object();
+  for (const MeasuredMean& mean : s.measured) {
+    means[std::string(mean.name)] = json_number(mean.value);
+    means[fmt::format("{}_error", mean.name)] = json_number(mean.error);
+  }
+  return means;
+}
+
 // These ids, if there was an overlap.
 Json ids_of(const WorstOverlap& worst, const std::vector<DiskId>& ids) {
   return worst.overlap.size > 0.0 ? Json(ids) : Json::array();
@@ -126,6 +135,12 @@ const JsonKey<Summary> summary_keys[] = {
      "only with sinks: an object, how many disks each of them took (`left` or another side, `walls.0` for the first of "
      "`[[walls]]`, ...)",
      [](const Summary& s) -> Json { return s.removed_by.empty() ? absent() : removed_by(s); }},
+    {"analysis", "",
+     "only with an analysis of them: an object, the means of `pressure`, `collision_rate`, `bond_order_local` and "
+     "`bond_order_global` over its samples, and `diffusion`, each with its standard error (`pressure_error`, ...), as "
+     "in "
+     "analysis.h5; null of too few samples",
+     [](const Summary& s) -> Json { return s.measured.empty() ? absent() : means_of(s); }},
     {"emitted", "", "disks that came from sources", [](const Summary& s) -> Json { return s.counters.emitted; }},
     {"state_hash", "", "64-bit hash of (id, x, y, vx, vy), and the spin of rough disks, of all disks at the end",
      [](const Summary& s) -> Json { return s.state_hash; }},
@@ -225,6 +240,18 @@ std::string pressure_line(const Summary& s) {
         s.kinetic_initial, s.kinetic_final);
   }
   return fmt::format("{:.6g}{}", s.pressure, s.box.shear.acts() ? ", with the temperature at the end" : "");
+}
+
+// "pressure 0.734 +- 0.002, diffusion 0.031 +- 0.001"
+std::string measured_line(const Summary& s) {
+  std::string text;
+  for (const MeasuredMean& mean : s.measured) {
+    if (!text.empty()) text += ", ";
+    text += std::isnan(mean.value) ? fmt::format("{} not known, of too few samples", mean.name)
+                                   : fmt::format("{} {:.6g}", mean.name, mean.value);
+    if (!std::isnan(mean.error)) text += fmt::format(" +- {:.2g}", mean.error);
+  }
+  return text;
 }
 
 std::string disks_line(const Summary& s) {
@@ -329,6 +356,7 @@ std::string table_text(const Summary& s, const std::string& folder) {
   if (s.keeps_momentum) line("momentum", fmt::format("changed by {:.2g} of sum m |v|", s.momentum_drift));
   line("overlap", worst_line(s.worst_disks, s.worst_wall));
   if (!s.drawn_velocities) line("pressure", pressure_line(s));
+  if (!s.measured.empty()) line("measured", measured_line(s));
   line("state hash", s.state_hash);
   line("speed", fmt::format("{} steps/s, {} disk-steps/s; {} in all", short_number(rate),
                             short_number(rate * s.mean_disks), duration_text(s.wall_s)));

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/measure/measured_means.hpp"
 #include "core/measure/state_sums.hpp"
 #include "parallel/slabs/rank_report.hpp"
 #include "run/engine/make_engine.hpp"
@@ -37,6 +38,7 @@ struct Summary {
   Domain box;
   bool thermostat = false;
   std::vector<std::pair<std::string, Count>> removed_by;  // each sink, and how many disks it took
+  std::vector<MeasuredMean> measured;                     // by the scene's analysis
   Count frames = 0;
   std::vector<std::string> warnings;  // of the physics, in order
   Count resumed = 0;                  // how often it went on from a checkpoint; the times are those of all parts
@@ -48,7 +50,7 @@ struct Summary {
 // Of all disks, of all ranks.
 StateSums sums_of(const Engine& engine, const Scene& scene, const EngineChoice& choice);
 
-// Everything but the times, the number of frames and the warnings, which the caller adds.
+// Everything but the times, what an analysis measured, the number of frames and the warnings, which the caller adds.
 Summary summarize(const RunStart& start, const Engine& engine, const Scene& scene, const EngineChoice& choice);
 
 // One JSON object with the keys of the table in summary.cpp, in its order (resume_with only of a run that stopped

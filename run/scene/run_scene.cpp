@@ -211,7 +211,12 @@ std::vector<std::string> SceneRun::energy_gained() const {
 Summary SceneRun::summary() const {
   const RunRecord record = keeper_.record(step_s_);
   Summary summary = summarize(record.start, engine_, scene_, settings_.engine);
-  summary.frames = files_ != nullptr ? files_->outputs.frames() : 0;
+  if (files_ != nullptr) {
+    summary.frames = files_->outputs.frames();
+    if (const RunningAnalysis* const analysis = files_->outputs.analysis()) {
+      summary.measured = measured_means(analysis->record(), scene_);
+    }
+  }
   summary.step_s = record.step_s;
   summary.wall_s = record.wall_s;
   summary.cpu_s = record.cpu_s;

@@ -13,6 +13,7 @@
 
 #include "core/base/blocking_error.hpp"
 #include "core/load/scene_file.hpp"
+#include "core/measure/measured_means.hpp"
 #include "io/tables/analysis_curves.hpp"
 #include "tests/support/test_folder.hpp"
 
@@ -141,6 +142,28 @@ TEST_F(AnalysisFile, SeriesHaveTheirMeansAndErrors) {
   EXPECT_NEAR(number("/pressure", "standard_error"), std::sqrt(squares * 32.0 / 31.0) / 65.0, 1e-12);
   EXPECT_NEAR(number("/bond_order", "local_standard_error"), 0.1 / std::sqrt(31.0), 1e-12);
   EXPECT_DOUBLE_EQ(number("/bond_order", "global_mean"), 0.02);
+}
+
+// What the run's summary tells of it.
+TEST_F(AnalysisFile, HasTheMeansOfTheSummary) {
+  const Scene scene = measured_scene("");
+  const AnalysisRecord record = made_by_hand(scene);
+  write(scene, record);
+  const std::vector<MeasuredMean> means = measured_means(record, scene);
+  ASSERT_EQ(means.size(), 5U);
+  const auto expect = [&](std::size_t k, const char* name, const char* group, const char* value, const char* error) {
+    EXPECT_EQ(means[k].name, name);
+    EXPECT_EQ(means[k].value, number(group, value));
+    EXPECT_EQ(means[k].error, number(group, error));
+  };
+  expect(0, "pressure", "/pressure", "mean", "standard_error");
+  expect(1, "collision_rate", "/collision_rate", "mean", "standard_error");
+  expect(2, "diffusion", "/displacement", "diffusion", "diffusion_error");
+  expect(3, "bond_order_local", "/bond_order", "local_mean", "local_standard_error");
+  expect(4, "bond_order_global", "/bond_order", "global_mean", "global_standard_error");
+  for (const MeasuredMean& none : measured_means(empty_record(scene), scene)) {
+    EXPECT_TRUE(std::isnan(none.value) && std::isnan(none.error)) << none.name << " without samples";
+  }
 }
 
 TEST_F(AnalysisFile, CountsAreOverTheSamples) {

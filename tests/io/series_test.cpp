@@ -210,7 +210,7 @@ TEST(Series, ValuesStandUnderTheirNames) {
   scene.groups[0].name = "one";
   Disks disks;
   disks.inertia = 0.5;
-  append(disks, {5.0, 5.0, 3.0, 4.0, 1.0, 2.0, 0, 3.0});
+  append(disks, {5.0, 6.0, 3.0, 4.0, 1.0, 2.0, 0, 3.0});
   State state;
   state.taken = {0, 11, 0, 0, 0, 12};
   state.counters.side_energy[0] = 1.5;
@@ -230,7 +230,7 @@ TEST(Series, ValuesStandUnderTheirNames) {
             "t,disks,kinetic,potential,total,px,py,collisions,wall_collisions,pressure,collision_rate,max_overlap,"
             "removed,emitted,waiting,force_left,force_right,force_bottom,force_top,displacement,removed_by_right,"
             "removed_by_walls.1,heat_left,work_top,wall_work,wall_push_x,wall_push_y,thermostat_heat,rotational,"
-            "rotational_temperature,disks_one,kinetic_one,temperature_one,vx_one,vy_one");
+            "rotational_temperature,disks_one,kinetic_one,temperature_one,vx_one,vy_one,x_one,y_one");
   EXPECT_THAT(text, ::testing::HasSubstr("\n0.30000000000000004,1,25,")) << "all digits of the time";
   auto row = read_csv(path).at(0);
   EXPECT_EQ(row["collisions"], 5e9);
@@ -246,6 +246,8 @@ TEST(Series, ValuesStandUnderTheirNames) {
   EXPECT_EQ(row["rotational"], 0.5 * 0.5 * 2.0 * 9.0);
   EXPECT_EQ(row["kinetic_one"], 25.0);
   EXPECT_EQ(row["vy_one"], 4.0);
+  EXPECT_EQ(row["x_one"], 5.0);
+  EXPECT_EQ(row["y_one"], 6.0);
 }
 
 // With the lid at 4 of 10 at the end of the interval.

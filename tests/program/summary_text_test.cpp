@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -64,6 +65,23 @@ TEST(SummaryText, OfSidesOnlyThoseThatGiveAnything) {
   EXPECT_EQ(all["removed_by"], (json{{"left", 10}, {"walls.2", 0}}));
   EXPECT_EQ(all["shear_work"], 9.0);
   EXPECT_EQ(all["resume_with"], "carom resume out");
+}
+
+TEST(SummaryText, WhatAnAnalysisMeasuredHasItsError) {
+  Summary s = hundred_steps();
+  EXPECT_FALSE(parsed(s).contains("analysis"));
+  EXPECT_THAT(table_text(s, ""), Not(HasSubstr("measured")));
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  s.measured = {{"pressure", 0.5, 0.0123}, {"collision_rate", 2.0, nothing}, {"diffusion", nothing, nothing}};
+  EXPECT_EQ(parsed(s)["analysis"], (json{{"pressure", 0.5},
+                                         {"pressure_error", 0.0123},
+                                         {"collision_rate", 2.0},
+                                         {"collision_rate_error", nullptr},
+                                         {"diffusion", nullptr},
+                                         {"diffusion_error", nullptr}}));
+  EXPECT_THAT(table_text(s, ""),
+              HasSubstr("  measured    pressure 0.5 +- 0.012, collision_rate 2, diffusion not known, "
+                        "of too few samples\n"));
 }
 
 TEST(SummaryText, WhatWasWorstHasItsTimeAndItsDisks) {

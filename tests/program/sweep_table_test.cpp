@@ -1,5 +1,5 @@
-// sweep.csv: heat, work and what each sink took have columns where a run has them. A sweep over the speed of a piston
-// told of no work.
+// sweep.csv: heat, work, what each sink took and what an analysis measured have columns where a run has them. A sweep
+// over the speed of a piston told of no work.
 #include "app/sweep/sweep_table.hpp"
 
 #include <gmock/gmock.h>
@@ -42,6 +42,13 @@ TEST(SweepTable, HasWhatEachSinkTookWhereARunHasSinks) {
   Json open = {{"state_hash", "#"}};
   open["removed_by"] = {{"left", 3}, {"walls.2", 0}};
   EXPECT_THAT(ends({{&run, open}}), testing::ElementsAre(",removed_by_left,removed_by_walls.2", ",3,0"));
+}
+
+TEST(SweepTable, HasWhatAnAnalysisMeasuredWhereARunHasOne) {
+  const SweepRun run{"0001", {{"seed_of_run", "1"}, {"seed", "1"}}};
+  Json fluid = {{"state_hash", "#"}};
+  fluid["analysis"] = {{"diffusion", 0.5}, {"diffusion_error", nullptr}};
+  EXPECT_THAT(ends({{&run, fluid}}), testing::ElementsAre(",analysis_diffusion,analysis_diffusion_error", ",0.5,"));
 }
 
 }  // namespace
