@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "core/base/input_message.hpp"
 #include "core/scene/scene_names.hpp"
@@ -34,11 +35,19 @@ void check_wall_stays(const Scene& scene, Vec2 low, Vec2 high, const std::string
              "expected it to stay in the box");
 }
 
-// Do a side and a wall, which both move steadily, keep their order until the run's end? low, high: of the wall at time
-// 0.
+// Times at which a motion is as far as it comes, to either hand, until t_end.
+std::array<double, 4> turning_times(const SideMotion& motion, double t_end) {
+  if (!motion.vibrates()) return {0.0, 0.0, t_end, t_end};
+  return {0.0, std::min(0.25 * motion.period, t_end), std::min(0.75 * motion.period, t_end), t_end};
+}
+
+// Do a side and a wall keep their order until the run's end as they move alike, both steadily or swinging in step?
+// Their distance is then least at one of these times. low, high: of the wall at time 0.
 bool stay_apart(const Scene& scene, Side side, const InnerWall& wall, Vec2 low, Vec2 high) {
   const SideMotion& motion = scene.box.motions[static_cast<std::size_t>(side)];
-  for (const double t : {0.0, scene.run.t_end}) {
+  const SideMotion& pace = wall.motion.pace;
+  if (motion.kind != pace.kind || (motion.vibrates() && motion.period != pace.period)) return false;
+  for (const double t : turning_times(motion, scene.run.t_end)) {
     const Vec2 shift = wall.motion.at({t, t}).shift;
     const double limit =
         inset_to_reach(scene.box, side, {low.x + shift.x, low.y + shift.y}, {high.x + shift.x, high.y + shift.y});
@@ -62,13 +71,14 @@ void check_wall(const Scene& scene, const InnerWall& wall, const std::string& wh
     high = {high.x + range.high.x, high.y + range.high.y};
     check_wall_stays(scene, low, high, where);
   }
-  const Sweep sweep = first_sweep(scene.box, low, high, slack_of_sides(scene.box, 0.0), scene.run.t_end);
+  Sweep sweep;
+  for (const Side side : all_sides) {
+    const Sweep next = sweep_of(scene.box, side, low, high, slack_of_sides(scene.box, 0.0), scene.run.t_end);
+    if (next.time < sweep.time && !stay_apart(scene, side, wall, first_low, first_high)) sweep = next;
+  }
   if (!sweep.happens()) return;
-  const bool both_steady = wall.motion.pace.kind == SideMotion::Kind::steady &&
-                           scene.box.motions[static_cast<std::size_t>(sweep.side)].kind == SideMotion::Kind::steady;
-  if (both_steady && stay_apart(scene, sweep.side, wall, first_low, first_high)) return;
   const std::string_view side = name_of(sweep.side);
-  // Two that swing in step may never meet: what is asked is whether their ways overlap.
+  // Of two that move otherwise, what is asked is whether their ways overlap.
   if (wall.motion.moves()) {
     fail_input(where,
                fmt::format("the {} side comes into the room that it moves through at t = {:g}", side, sweep.time),

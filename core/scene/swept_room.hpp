@@ -28,13 +28,18 @@ inline double inset_to_reach(const Domain& box, Side side, Vec2 low, Vec2 high) 
   }
 }
 
-// The first side that moves into the rectangle until t_end, by more than `slack` (length).
+// When a side moves into the rectangle until t_end, by more than `slack` (length).
+inline Sweep sweep_of(const Domain& box, Side side, Vec2 low, Vec2 high, double slack, double t_end) {
+  const double limit = inset_to_reach(box, side, low, high) + slack;
+  return {side, box.motions[static_cast<std::size_t>(side)].first_time_beyond(limit, t_end)};
+}
+
+// The first of all sides.
 inline Sweep first_sweep(const Domain& box, Vec2 low, Vec2 high, double slack, double t_end) {
   Sweep first;
   for (const Side side : all_sides) {
-    const double limit = inset_to_reach(box, side, low, high) + slack;
-    const double time = box.motions[static_cast<std::size_t>(side)].first_time_beyond(limit, t_end);
-    if (time < first.time) first = {side, time};
+    const Sweep sweep = sweep_of(box, side, low, high, slack, t_end);
+    if (sweep.time < first.time) first = sweep;
   }
   return first;
 }

@@ -383,12 +383,23 @@ TEST(BadWallMotion, IsRefusedInOneLine) {
   EXPECT_THAT(
       refusal("left = { motion = { velocity = [1, 0] } }", with("vibrate = [1, 0], period = 2"), 9.0),
       HasSubstr("walls.0.motion: the left side comes into the room that it moves through at t = 4; expected ways"));
-  // In step with the floor, and a tenth above it: they would not meet, but the floor is where the wall comes later.
+  const std::string floor = "bottom = { motion = { vibrate = [0, 0.5], period = 2 } }";
+  const auto above = [&](const std::string& motion) { return wall("[[3, 0.6], [7, 0.6]]", motion) + ball; };
+  const auto overlap = HasSubstr(
+      "the bottom side comes into the room that it moves through at t = 0; expected ways of the two that do not "
+      "overlap "
+      "until run.t_end = 9");
+  EXPECT_THAT(refusal(floor, above("vibrate = [0, 0.5], period = 3"), 9.0), overlap);
+  EXPECT_THAT(refusal(floor, above("vibrate = [0, 0.5], period = 2, shape = \"sine\""), 9.0), overlap);
+  // In step with the floor, and a tenth above it. Swinging by 0.39 it is 0.01 below it at the upper end.
+  EXPECT_EQ(refusal(floor, above("vibrate = [0, 0.5], period = 2"), 9.0), "");
+  EXPECT_EQ(refusal(floor, above("vibrate = [0, 0.41], period = 2"), 9.0), "");
+  EXPECT_THAT(refusal(floor, above("vibrate = [0, 0.39], period = 2"), 9.0), overlap);
+  EXPECT_EQ(refusal(floor, above("vibrate = [0, 0.39], period = 2"), 0.3), "") << "over before they come so near";
+  // What another side does is seen all the same.
   EXPECT_THAT(
-      refusal("bottom = { motion = { vibrate = [0, 0.5], period = 2 } }",
-              wall("[[3, 0.6], [7, 0.6]]", "vibrate = [0, 0.5], period = 2") + ball, 9.0),
-      HasSubstr("the bottom side comes into the room that it moves through at t = 0; expected ways of the two that "
-                "do not overlap until run.t_end = 9"));
+      refusal(floor + "\nleft = { motion = { velocity = [0.5, 0] } }", above("vibrate = [0, 0.5], period = 2"), 9.0),
+      HasSubstr("the left side comes into the room that it moves through at t = 6"));
   EXPECT_EQ(refusal("left = { motion = { velocity = [1, 0] } }", with("velocity = [1, 0]"), 9.0), "");
 }
 
