@@ -46,11 +46,14 @@ std::string partner_text(const Domain& box, DiskId id) {
   const bool rests = rules.gravity.acts() && dissipates(rules);
   if (!rules.tc() && (rests || may_lose_energy(rules, event.id1, event.id2))) fail_collapse(rules, event, start);
   if (rules.box.has_moving_wall()) {
+    // An elastic disk that starts at rest on a wall, in its frame, or that a source there sends in, stays on it.
+    const bool may_rest = rules.gravity.acts();
     throw PhysicsError(fmt::format(
-        "exact: time stands still at t = {}: disk {} and {} meet again and again at one moment; a wall that moves may "
-        "leave them no room ({}): move it less far, or take fewer or smaller disks",
+        "exact: time stands still at t = {}: disk {} and {} meet again and again at one moment; {}a wall that moves "
+        "may leave them no room ({}): {}move it less far, or take fewer or smaller disks",
         start + event.time, event.id1, partner_text(rules.box, event.id2),
-        moving_walls_text(rules.box, start + event.time)));
+        may_rest ? "they rest on each other, or " : "", moving_walls_text(rules.box, start + event.time),
+        may_rest ? "use run.method = \"pairwise\", " : ""));
   }
   throw PhysicsError(fmt::format(
       "exact: time stands still at t = {}: disk {} and {} meet again and again at one moment; {}", start + event.time,
@@ -156,14 +159,18 @@ bool moving_walls_pushed(const Domain& box, const ImpactTally& tally) {
 }
 
 // Where a wall that moves pushes disks all the while. Disks that land on one whose motion is a sine may come to rest
-// there and be seen hopping for ever.
+// there and be seen hopping for ever; so may elastic ones that gravity presses against a wall from the start.
 std::string slow_at_moving_walls(const Scene& scene, const WindowPlan& plan, double time) {
-  const bool may_rest = !plan.tc && loses_energy(scene);
+  const bool collapses = !plan.tc && loses_energy(scene);
+  const bool may_rest = !plan.tc && (collapses || scene.physics.gravity.acts());
   return fmt::format(
-      "{}a wall that moves leaves the disks hardly any room ({}): {}move it less far, or take fewer or smaller disks",
-      may_rest ? "disks come to rest on a wall (inelastic collapse), or " : "", moving_walls_text(scene.box, time),
-      may_rest ? "set physics.collapse = { model = \"tc\", contact_time = ... } or use run.method = \"pairwise\", "
-               : "");
+      "{}a wall that moves leaves the disks hardly any room ({}): {}{}move it less far, or take fewer or smaller disks",
+      collapses  ? "disks come to rest on a wall (inelastic collapse), or "
+      : may_rest ? "disks rest on a wall, or "
+                 : "",
+      moving_walls_text(scene.box, time),
+      collapses ? "set physics.collapse = { model = \"tc\", contact_time = ... } or " : "",
+      may_rest ? "use run.method = \"pairwise\", " : "");
 }
 
 }  // namespace

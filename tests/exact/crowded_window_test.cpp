@@ -195,6 +195,24 @@ TEST(CrowdedWindow, AtRestOnAnElasticFloorIsNotCalledCollapse) {
               AllOf(HasSubstr("time stands still at t = 0"), HasSubstr("the bottom wall"), Not(HasSubstr("collapse"))));
 }
 
+// Likewise on a floor that moves, in its frame, and where it hops by so little that it is seen hopping for ever:
+// neither lacks room.
+TEST(CrowdedWindow, AtRestOnAFloorThatMovesIsCalledByItsName) {
+  const auto resting = [](const std::string& y) {
+    const std::string text =
+        "[box]\nwidth = 10.0\nheight = 10.0\nbottom = { motion = { velocity = [0.0, 0.01] } }\n"
+        "[physics]\ngravity = 1.0\n[[disks]]\ncount = 1\npositions = [[3.0, " +
+        y + "]]\nvelocities = [[0.0, 0.01]]\nradius = 0.25\nmass = 1\n[run]\nt_end = 20.0\n";
+    const Scene scene = parse_scene(text, "lift", "");
+    return outcome(scene, initial_state(scene));
+  };
+  EXPECT_THAT(resting("0.25"), AllOf(HasSubstr("time stands still at t = 0"), HasSubstr("they rest on each other, or"),
+                                     HasSubstr("use run.method = \"pairwise\""), Not(HasSubstr("collapse"))));
+  EXPECT_THAT(resting("0.250000000001"),
+              AllOf(HasSubstr("time all but stands still"), HasSubstr("disks rest on a wall, or"),
+                    HasSubstr("use run.method = \"pairwise\""), Not(HasSubstr("collapse"))));
+}
+
 TEST(LongCrowdedWindow, MassesWhoseSumIsNotANumber) {
   Domain box;
   box.width = box.height = 20.0;
