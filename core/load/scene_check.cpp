@@ -338,11 +338,13 @@ double check_box(const Scene& scene, const PlaceOfKey& place) {
   check_times(scene, place);
   double smallest = 0.0;  // radius; 0: no disk yet
   double largest = 0.0;
+  double largest_to_move = 0.0;  // fixed disks may be wider than the box
   double lightest = 0.0;
-  const auto add = [&](const DiskSize& low, const DiskSize& high) {
+  const auto add = [&](const DiskSize& low, const DiskSize& high, bool fixed) {
     lightest = lightest > 0.0 ? std::min(lightest, low.mass) : low.mass;
     smallest = smallest > 0.0 ? std::min(smallest, low.radius) : low.radius;
     largest = std::max(largest, high.radius);
+    if (!fixed) largest_to_move = std::max(largest_to_move, high.radius);
   };
   DiskId first_id = 0;
   for (std::size_t g = 0; g < scene.groups.size(); ++g) {
@@ -357,7 +359,7 @@ double check_box(const Scene& scene, const PlaceOfKey& place) {
     if (group.positions.region) {
       check_start_region(*group.positions.region, scene.box, sizes.largest.radius, place(path + ".region"));
     }
-    add(sizes.smallest, sizes.largest);
+    add(sizes.smallest, sizes.largest, group.fixed);
     first_id += static_cast<DiskId>(group.count);
   }
   for (std::size_t k = 0; k < scene.sources.size(); ++k) {
@@ -368,17 +370,18 @@ double check_box(const Scene& scene, const PlaceOfKey& place) {
     check_velocities(scene, source.velocities, low.mass, path, place);
     check_spins(scene, source.spins, low.mass, high.radius, path, place);
     check_emissions(scene, source, path, place);
-    add(low, high);
+    add(low, high, false);
     if (!source.side) check_region(source, scene.box, high.radius, place(path + ".region"));
   }
   for (std::size_t k = 0; k < scene.walls.size(); ++k)
     check_wall(scene, scene.walls[k], fmt::format("walls.{}", k), place);
-  check_axis(scene.box.width, scene.box.periodic_x(), largest, "width", place);
-  check_axis(scene.box.height, scene.box.periodic_y(), largest, "height", place);
+  const Domain& box = scene.box;
+  check_axis(box.width, box.periodic_x(), box.periodic_x() ? largest : largest_to_move, "width", place);
+  check_axis(box.height, box.periodic_y(), box.periodic_y() ? largest : largest_to_move, "height", place);
   check_resolution(scene, smallest, place);
   check_thermal_sides(scene, lightest, place);
   check_selection(scene, place);
-  return largest;
+  return largest_to_move;
 }
 
 }  // namespace carom

@@ -14,7 +14,7 @@ namespace carom {
 void check_parts(const Scene& scene, const PlaceOfKey& place);
 
 // The box against the largest disk, and sources against the box. Precondition: check_parts passed, box.width and
-// box.height are known and positive. Throws InputError. Returns the largest radius that a disk of the scene can have.
+// box.height are known and positive. Throws InputError. Returns the largest radius that a disk which moves can have.
 double check_box(const Scene& scene, const PlaceOfKey& place);
 
 // What is no error, but may not be what was meant: keys that the scene's method does not use. One line each.

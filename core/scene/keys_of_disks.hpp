@@ -34,7 +34,8 @@ inline constexpr SceneKey keys[] = {
      mass_allowed},
     {"disks", "fixed", flag, none, "false",
      "Obstacles: disks of infinite mass, which never move and have no weight, no velocity and no energy. Others "
-     "collide with them as with each other, by `restitution`. They may overlap each other and stick out of the box.",
+     "collide with them as with each other, by `restitution`. Their centres lie in the box; they may overlap each "
+     "other, stick out of it, and be wider than it where its sides are not periodic.",
      "fixed = true"},
     {"disks", "region", special, Dimension::length, "the box",
      "Where random disks and lattices start: whole disks within this rectangle or circle. A rectangle from one "

@@ -138,6 +138,18 @@ TEST(KeysTogether, TheLargestOfAGroupHasToFit) {
   EXPECT_THAT(complaint(text), HasSubstr("box.height: 10 is too small for a disk of radius 6"));
 }
 
+// Fixed disks stick out of the box, and may be wider than it; across periodic sides they have one nearest image.
+TEST(KeysTogether, AFixedDiskMayBeWiderThanTheBox) {
+  const auto with_sides = [](const std::string& sides) {
+    return complaint("[box]\nwidth = 10\nheight = 8\n" + sides +
+                     "[[disks]]\nfixed = true\ncount = 1\npositions = [[5, 0]]\nradius = 6\n"
+                     "[[disks]]\ncount = 1\npositions = [[5, 7]]\nradius = 0.5\nmass = 1\n[run]\nt_end = 1\n");
+  };
+  EXPECT_EQ(with_sides(""), "");
+  EXPECT_THAT(with_sides("left = \"periodic\"\nright = \"periodic\"\n"),
+              HasSubstr("box.width: 10 is too small for a disk of radius 6; expected at least 24, two diameters"));
+}
+
 TEST(KeysTogether, BrownianDisksAndSinks) {
   const std::string brownian = "diffusion = 0.1\n";
   const std::string run = "t_end = 10.0\ndt = 0.01\n";
