@@ -100,7 +100,8 @@ WindowPlan plan_window(const Scene& scene, const State& state, std::size_t disks
   plan.pace_moving = (plan.tc ? least_pace_tc : least_pace_moving) * longest * scale;
   const double cut = next_cut(scene, state);
   plan.end = state.time + plan.meant;
-  plan.length = plan.meant;
+  // As long as the clock says: late in a run its rounding is by far the largest of all.
+  plan.length = plan.end - plan.start;
   if (!(plan.end < cut)) {
     plan.end = cut;
     plan.length = cut - state.time;

@@ -104,5 +104,30 @@ TEST(LateTimes, DisksTouchASideThatMovesWhereTheReferenceSays) {
   }
 }
 
+// Where a disk is that bounces between walls at `low` and `high`, after a time that long double holds.
+double folded(long double place, long double speed, long double low, long double high, long double time) {
+  const long double room = high - low;
+  const long double way = std::fmod(place - low + speed * time, 2.0L * room);
+  return static_cast<double>(low + (way <= room ? way : 2.0L * room - way));
+}
+
+// A window lasts as long as the clock goes on, in whole units of its last place: disks are where that time says.
+TEST(LateTimes, ADiskIsWhereItsPathHasBroughtIt) {
+  for (const double late : {0.0, 1e6, 1e9, 1e12}) {
+    const double span = 4096.0;
+    Scene scene = test::scene_of(Method::exact, 10.0, 10.0, 0.0, 1.0);
+    scene.run.t_end = late + span;
+    State start = test::state_of(scene, {{3.0, 4.0, 0.3, 0.7, 0.5, 1.0}});
+    start.time = late;
+    for (const auto& engine : {make_reference_engine(scene, start), make_parallel_engine(scene, start, {1})}) {
+      while (engine->state().time < scene.run.t_end) engine->step();
+      const Disks& d = engine->state().disks;
+      EXPECT_NEAR(d.x[0], folded(3.0, 0.3, 0.5, 9.5, span), 1e-11) << "from t = " << late;
+      EXPECT_NEAR(d.y[0], folded(4.0, 0.7, 0.5, 9.5, span), 1e-11) << "from t = " << late;
+      EXPECT_GT(engine->state().counters.steps, 5U);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace carom
