@@ -234,10 +234,9 @@ std::string traffic_line(const Summary& s) {
 std::string pressure_line(const Summary& s) {
   if (std::isnan(s.pressure)) {
     if (s.counters.steps == 0) return "not known, as no time has passed";
-    return fmt::format(
-        "not known from the kinetic energy at the start, {:.6g}, and at the end, {:.6g}; output.series = true tells it "
-        "over time",
-        s.kinetic_initial, s.kinetic_final);
+    return fmt::format("not known from the kinetic energy at the start, {:.6g}, and at the end, {:.6g}; {} over time",
+                       s.kinetic_initial, s.kinetic_final,
+                       s.series ? "series.csv has it" : "output.series = true tells it");
   }
   return fmt::format("{:.6g}{}", s.pressure, s.box.shear.acts() ? ", with the temperature at the end" : "");
 }
@@ -322,6 +321,7 @@ Summary summarize(const RunStart& start, const Engine& engine, const Scene& scen
   s.state_hash = hash_text(sums.hash);
   s.seed = scene.seed;
   s.thermostat = scene.physics.thermostat.acts();
+  s.series = scene.output.series;
   for (const SceneSink& sink : sinks_of(scene)) s.removed_by.emplace_back(sink.name, taken_by(sink, state));
   s.phases = engine.phase_times();
   if (choice.lead != nullptr && choice.ranks > 1) {

@@ -37,6 +37,7 @@ struct Summary {
   std::uint64_t seed = 1;
   Domain box;
   bool thermostat = false;
+  bool series = false;                                    // series.csv is written
   std::vector<std::pair<std::string, Count>> removed_by;  // each sink, and how many disks it took
   std::vector<MeasuredMean> measured;                     // by the scene's analysis
   Count frames = 0;

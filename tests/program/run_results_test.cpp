@@ -116,8 +116,10 @@ TEST_F(RunResults, WhatThePressureIsWhereTheEnergyChanges) {
   EXPECT_TRUE(s["pressure"].is_null()) << s["pressure"];
   EXPECT_THAT(o.out,
               HasSubstr(fmt::format("  pressure    not known from the kinetic energy at the start, {:.6g}, and at "
-                                    "the end, {:.6g}; output.series = true tells it over time\n",
+                                    "the end, {:.6g}; series.csv has it over time\n",
                                     s["energy_initial"].get<double>(), s["energy_final"].get<double>())));
+  EXPECT_THAT(carom("run small.toml -o told --t-end 20 --set box.wall_restitution=0.5 --set output.series=false").out,
+              testing::ContainsRegex("  pressure    not known from [^;]+; output.series = true tells it over time\n"));
   std::string sheared = "run small.toml -o sheared --set box.shear_rate=0.1";
   for (const char* const side : {"left", "right", "bottom", "top"}) {
     sheared += fmt::format(" --set 'box.{}=\"periodic\"'", side);
