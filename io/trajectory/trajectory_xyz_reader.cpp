@@ -161,7 +161,7 @@ Domain XyzReader::read_box() const {
     if (number(corner) != 0.0) fail(fmt::format("Origin is \"{}\", expected \"0 0 0\"", value_of(line_, "Origin")));
   }
   const auto periodic = words(value_of(line_, "pbc"));
-  if (periodic.size() != 3) fail("expected pbc=\"T F F\"");
+  if (periodic.size() != 3) fail("expected pbc=\"T F F\", T for each direction that is periodic");
   for (const std::string_view word : periodic) {
     if (word != "T" && word != "F") fail(fmt::format("pbc has '{}', expected T or F", word));
   }

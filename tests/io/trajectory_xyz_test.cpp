@@ -158,7 +158,7 @@ TEST_F(TrajectoryXyz, OtherBoxesAreRefused) {
   }
   EXPECT_EQ(said(sound, "Origin=\"0 -4 0\" pbc=\"T F F\""), path_ + ":2: Origin is \"0 -4 0\", expected \"0 0 0\"");
   EXPECT_EQ(said(sound, "pbc=\"1 0 0\""), path_ + ":2: pbc has '1', expected T or F");
-  EXPECT_EQ(said(sound, "pbc=\"T F\""), path_ + ":2: expected pbc=\"T F F\"");
+  EXPECT_EQ(said(sound, "pbc=\"T F\""), path_ + ":2: expected pbc=\"T F F\", T for each direction that is periodic");
 }
 
 // Keys are whole words outside of quotes, and values whole numbers.
