@@ -125,6 +125,8 @@ std::string physics_text(const Scene& scene) {
   text += elastic && walls == ", 1 at walls" ? ", at walls too" : walls;
   text += moving_walls_text(scene);
   text += surfaces_text(p.surfaces);
+  if (scene.box.shear.acts()) text += fmt::format("; a shear flow of rate {:g}", scene.box.shear.rate);
+  if (const auto& tc = p.collapse_contact_time) text += fmt::format("; the TC model, contact time {:g}", *tc);
   if (p.diffusion > 0.0) {
     text += fmt::format("; Brownian motion, D = {:g}{}", p.diffusion, p.accumulate ? ", accumulating velocity" : "");
   }

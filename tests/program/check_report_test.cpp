@@ -60,6 +60,19 @@ TEST_F(CheckReport, ThePhysicsIsInWords) {
   EXPECT_THAT(said("--set 'physics.gravity=[0, 2]'"), HasSubstr("gravity [0, 2]; ")) << "upwards";
   EXPECT_THAT(said("--set physics.restitution=0.5"), HasSubstr("; restitution 0.5 of disks, 1 at walls\n"));
   EXPECT_THAT(said("--set box.wall_restitution=0.5"), HasSubstr("; elastic collisions, 0.5 at walls\n"));
+  EXPECT_THAT(said("--method exact --set physics.restitution=0.5 --set 'physics.collapse={ model = \"tc\", "
+                   "contact_time = 1e-6 }'"),
+              HasSubstr("; the TC model, contact time 1e-06\n"));
+}
+
+TEST_F(CheckReport, AShearFlowIsInWords) {
+  const std::string periodic = "left = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\n";
+  write("sheared.toml",
+        "[box]\nwidth = 10.0\nheight = 10.0\nshear_rate = -0.25\n" + periodic +
+            "[[disks]]\ncount = 2\npositions = [[2, 2], [7, 7]]\nradius = 0.5\nmass = 1\n[run]\nt_end = 1.0\n");
+  const Outcome o = carom("check sheared.toml");
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_THAT(o.out, HasSubstr("elastic collisions; a shear flow of rate -0.25\n"));
 }
 
 TEST_F(CheckReport, WhatALongStepLeadsToIsTold) {
