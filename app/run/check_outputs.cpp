@@ -17,7 +17,9 @@
 #include "core/scene/size_law.hpp"
 #include "io/checkpoint/checkpoint.hpp"
 #include "io/files/checkpoint_names.hpp"
+#include "io/files/child_process.hpp"
 #include "io/movie/frame.hpp"
+#include "io/movie/movie.hpp"
 #include "run/loop/frame_schedule.hpp"
 #include "run/outputs/run_outputs.hpp"
 #include "run/recordings/run_view.hpp"
@@ -212,7 +214,7 @@ void add_page(const Scene& scene, double shown, OutputForesight& f) {
 // 720, 1263 with 4096 x 4096 and 4547 with 8192 x 8192, on two cores.
 double ffmpeg_bytes(const Scene& scene) {
   constexpr double at_least = 60e6, pixel_bytes = 70.0;
-  if (!scene.output.movie) return 0.0;
+  if (!scene.output.movie || !finds_ffmpeg()) return 0.0;
   const FrameLayout layout = frame_layout(frame_style(scene, scene.output.look, {}));
   return at_least + pixel_bytes * static_cast<double>(layout.width) * static_cast<double>(layout.height);
 }
@@ -337,12 +339,15 @@ OutputForesight foresee_outputs(const Scene& scene, const EngineChoice& choice, 
     f.samples = moments_shown(scene, scene.analysis.every, scene.run.t_end - scene.analysis.start);
   if (!wants_files(scene)) return f;
   f.ffmpeg_bytes = ffmpeg_bytes(scene);
+  const double plots = static_cast<double>(scene.output.plots.size()) + quantities_of(scene);
+  const bool draws = plots > 0.0 && !find_program("gnuplot").empty();
+  if (scene.output.movie && !finds_ffmpeg()) f.missing.emplace_back(without_ffmpeg);
+  if (plots > 0.0 && !draws) f.missing.emplace_back(without_gnuplot);
   const Workshop workshop;
   try {
     if (workshop.path().empty()) throw RunError("there is no folder for temporary files");
     rehearse_files(scene, choice, tried, population.mean, workshop.path(), f);
-    const double plots = static_cast<double>(scene.output.plots.size()) + quantities_of(scene);
-    if (plots > 0.0) f.plots_s = plots * plot_seconds(workshop.path());
+    if (draws) f.plots_s = plots * plot_seconds(workshop.path());
   } catch (const std::runtime_error& error) {  // a full disk, or a folder that takes no files
     f.files.clear();
     f.not_tried = error.what();
@@ -351,12 +356,12 @@ OutputForesight foresee_outputs(const Scene& scene, const EngineChoice& choice, 
   if (scene.output.view) {
     add_page(scene, disks_shown(scene, population.mean) / static_cast<double>(scene.output.select.stride), f);
   }
-  add_plots(scene, population.mean, f);
+  if (draws) add_plots(scene, population.mean, f);
   if (scene.analysis.any()) {
     constexpr double file_bytes = 10e3, table_bytes = 10e3, sample_bytes = 30.0;
     const double each = table_bytes + sample_bytes * static_cast<double>(f.samples);
     f.files.emplace_back("analysis.h5", file_bytes + each * quantities_of(scene));
-    f.files.emplace_back("plots of the analysis", quantities_of(scene) * 1.5 * plot_bytes);
+    if (draws) f.files.emplace_back("plots of the analysis", quantities_of(scene) * 1.5 * plot_bytes);
   }
   if (scene.output.checkpoint > 0.0) {
     const double bytes = checkpoint_bytes(tried.state(), population.end);

@@ -17,8 +17,9 @@ struct OutputForesight {
   double files_s = 0.0;                               // trajectory, series, movie
   double analysis_s = 0.0;                            // samples
   double plots_s = 0.0;
-  double ffmpeg_bytes = 0.0;  // memory that ffmpeg takes, beside the run's own, while it makes the movie
-  std::string not_tried;      // why the figures are guesses, or empty
+  double ffmpeg_bytes = 0.0;         // memory that ffmpeg takes, beside the run's own, while it makes the movie
+  std::string not_tried;             // why the figures are guesses, or empty
+  std::vector<std::string> missing;  // what the run will lack as a program is not installed
 
   double bytes() const;
   double seconds() const { return files_s + analysis_s + plots_s; }

@@ -182,6 +182,7 @@ void try_run(const Scene& scene, const EngineChoice& choice, State initial, Find
     for (const std::string& trouble : waiting_in_trial(scene, engine->progress())) found.troubles.push_back(trouble);
     const double before = peak_bytes();
     found.outputs = foresee_outputs(scene, choice, *engine, found.population, found.step_seconds);
+    for (const std::string& trouble : found.outputs.missing) found.troubles.push_back(trouble);
     found.memory_bytes += peak_bytes() - before + found.outputs.ffmpeg_bytes;  // pictures, what an analysis remembers
   });
 }

@@ -171,7 +171,7 @@ void RunOutputs::add_to_movie(const DisksInPieces& disks) {
       movie_ = std::make_unique<MovieWriter>(folder_.unfinished(),
                                              frame_style(scene_, scene_.output.look, foreseen_values(scene_, disks)));
       if (movie_->single_frames()) {
-        warnings_.emplace_back("ffmpeg is not installed: the movie becomes frames/frame_000001.png and so on");
+        warnings_.emplace_back(without_ffmpeg);
       }
     }
     movie_->add(disks);
@@ -204,7 +204,7 @@ void RunOutputs::draw_plots() {
     drawn = draw([&] { return plot_energy(folder_.path("energy.svg"), scene_.title, energies_); });
   }
   if (analysis_ && drawn) drawn = draw([&] { return analysis_->draw(); });
-  if (!drawn) warnings_.emplace_back("gnuplot is not installed: no plots are drawn");
+  if (!drawn) warnings_.emplace_back(without_gnuplot);
 }
 
 // Pictures of the run as it was when it came to an earlier end. Where they cannot be made anew, none is better than one

@@ -22,6 +22,11 @@ namespace carom {
 // Whether a scene asks for any file at all.
 bool wants_files(const Scene& scene);
 
+// What a run warns of where these programs are not installed.
+inline constexpr const char* without_ffmpeg =
+    "ffmpeg is not installed: the movie becomes frames/frame_000001.png and so on";
+inline constexpr const char* without_gnuplot = "gnuplot is not installed: no plots are drawn";
+
 class RunOutputs {
  public:
   // Opens the files in the folder. run: shares out the work of a frame or sample; the files are the same. Throws

@@ -120,6 +120,16 @@ TEST_F(CheckReport, AWallThatMovesAlongItselfDoesNothing) {
 }
 
 // Where nothing can be written on trial.
+// Neither ffmpeg's memory nor plots that nobody draws are counted.
+TEST_F(CheckReport, WhatARunLacksWithoutFfmpegAndGnuplot) {
+  const Json j = json("--set output.movie=true --set output.plots='[\"energy\"]'", "two.toml", "PATH=/nonexistent ");
+  EXPECT_EQ(j["troubles"], (Json{"ffmpeg is not installed: the movie becomes frames/frame_000001.png and so on",
+                                 "gnuplot is not installed: no plots are drawn"}));
+  EXPECT_TRUE(j["files_bytes"].contains("frames"));
+  EXPECT_FALSE(j["files_bytes"].contains("energy.svg"));
+  EXPECT_EQ(j["cost_parts_s"]["plots"], 0.0);
+}
+
 TEST_F(CheckReport, FilesAreGuessed) {
   const std::string all = "--set output.series=true --set output.movie=true --set output.trajectory='\"xyz\"'";
   const Json light = json(all + " --set output.select='\"light\"'", "two.toml", "TMPDIR=/nonexistent ")["files_bytes"];
