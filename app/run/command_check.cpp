@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include "app/run/check_report.hpp"
 #include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
+#include "core/base/short_number.hpp"
 #include "core/base/wall_clock.hpp"
 #include "core/disks/fastest_speed.hpp"
 #include "core/load/memory_need.hpp"
@@ -191,6 +193,12 @@ void try_run(const Scene& scene, const EngineChoice& choice, State initial, Find
 void try_ranks(const Scene& scene, const EngineChoice& choice, int ranks, bool tried, Findings& found) {
   if (!tried) fail_input("--ranks", "the disks grow for too long to be tried", "expected no --ranks");
   found.ranks = within_memory(scene, [&] { return foresee_ranks(scene, make_initial_state(choice, scene), ranks); });
+  if (const SlabTraffic& tried_on = found.ranks->traffic; tried_on.lone_steps > 0) {
+    found.troubles.push_back(
+        fmt::format("in {} of {} that were tried one rank ran all disks, as slabs were too thin, or too crowded; fewer "
+                    "ranks would do, or a higher box",
+                    tried_on.lone_steps, counted(tried_on.steps, "step")));
+  }
   if (found.ranks->first_has_all) {
     found.ranks->first_bytes = found.memory_bytes + mpi_bytes;
   } else {

@@ -6,6 +6,7 @@
 #include "core/base/check.hpp"
 #include "core/base/wall_clock.hpp"
 #include "parallel/ranks/local_ranks.hpp"
+#include "parallel/slabs/slab_cut.hpp"
 #include "parallel/slabs/slab_exact.hpp"
 #include "parallel/slabs/slab_pairwise.hpp"
 
@@ -24,7 +25,7 @@ double borders(const Domain& box, int ranks) {
 }
 
 struct Tried {
-  Count steps = 0;
+  Count steps = 0, idle = 0;  // idle: without a disk of its own
   Messages exchange, others;  // of all ranks
 };
 
@@ -47,6 +48,8 @@ Tried try_part(const Scene& scene, const State& start, Ranks& ranks, double seco
     tried.others.add(more.all_reduce);
     tried.others.add(more.gather);
     ++tried.steps;
+    const auto* const slab = dynamic_cast<const InSlabs*>(engine.get());
+    if (slab != nullptr && slab->own_disks() == 0) ++tried.idle;
     go_on = !ranks.any(ranks.rank() == 0 && seconds_since(begin) > seconds);
   }
   return tried;
@@ -62,6 +65,7 @@ SlabTraffic try_slabs(const Scene& scene, const State& start, int ranks, double 
     const Tried tried = try_part(scene, start, part, seconds);
     const std::lock_guard lock(mutex);
     all.steps = tried.steps;
+    if (part.rank() == 1) all.idle = tried.idle;  // of the lead's there would be none
     all.exchange.add(tried.exchange);
     all.others.add(tried.others);
   });
@@ -71,7 +75,8 @@ SlabTraffic try_slabs(const Scene& scene, const State& start, int ranks, double 
   const double agreed = ranks > 1 ? 1.0 : 0.0;
   return {agreed + static_cast<double>(all.exchange.messages + all.others.messages) / parts,
           agreed * sizeof(std::int64_t) +
-              (scale * static_cast<double>(all.exchange.bytes) + static_cast<double>(all.others.bytes)) / parts};
+              (scale * static_cast<double>(all.exchange.bytes) + static_cast<double>(all.others.bytes)) / parts,
+          all.steps, all.idle};
 }
 
 }  // namespace carom

@@ -70,12 +70,12 @@ RankForesight foresee_ranks(const Scene& scene, const State& start, int ranks) {
   f.alone = slabs.alone;
   f.other_bytes = process_bytes + (f.alone.empty() ? (disk_bytes + more * column_bytes) * f.disks : 0.0);
   if (scene.box.has_thermal_side()) f.other_bytes += sizeof(std::uint32_t) * all;
-  f.first_has_all = !f.alone.empty() || !starts_on_slabs(scene) || scene.output.view ||
+  f.traffic = try_slabs(scene, start, ranks, traffic_trial);
+  f.first_has_all = !f.alone.empty() || f.traffic.lone_steps > 0 || !starts_on_slabs(scene) || scene.output.view ||
                     looks_beyond_neighbours(scene, slabs.cut, start.disks.size());
   f.first_bytes = f.other_bytes + (wants_frames(scene.output) ? frame_bytes + round_bytes * all : 0.0);
   f.first_bytes += remembered_bytes(scene) * all;
   if (scene.output.movie) f.first_bytes += picture_bytes;
-  f.traffic = try_slabs(scene, start, ranks, traffic_trial);
   return f;
 }
 

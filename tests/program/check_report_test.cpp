@@ -120,6 +120,19 @@ TEST_F(CheckReport, AWallThatMovesAlongItselfDoesNothing) {
 }
 
 // Where nothing can be written on trial.
+// exact looks ten spacings and more beyond a slab: nothing of it is left where slabs are as thin as that.
+TEST_F(CheckReport, ThatOneRankRunsAllDisksIsTold) {
+  const auto troubles = [&](const char* height) {
+    return json(std::string("--ranks 2 --method exact --t-end 0.2 --set physics.gravity=0 --set box.width=40 ") +
+                "--set box.height=" + height + " --set 'disks=[{ count = 900, positions = \"square\", velocities = " +
+                "{ maxwell = 1.0 }, radius = 0.5, mass = 1.0 }]'")["troubles"];
+  };
+  ASSERT_EQ(troubles("40").size(), 1U);
+  EXPECT_THAT(troubles("40")[0].get<std::string>(),
+              testing::ContainsRegex("^in ([0-9]+) of [0-9]+ steps? that were tried one rank ran all disks, as slabs"));
+  EXPECT_EQ(troubles("400"), Json::array());
+}
+
 // Neither ffmpeg's memory nor plots that nobody draws are counted.
 TEST_F(CheckReport, WhatARunLacksWithoutFfmpegAndGnuplot) {
   const Json j = json("--set output.movie=true --set output.plots='[\"energy\"]'", "two.toml", "PATH=/nonexistent ");
