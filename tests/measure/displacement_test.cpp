@@ -256,6 +256,25 @@ TEST(Displacement, ManyDisksAreAskedWhereSpeedsComeFromElsewhere) {
   }
 }
 
+// Looks and speeds are dated by the disks that are looked at, wherever a run stands when it begins with them: from
+// these times on it is counted how far disks may have come.
+TEST(Displacement, LooksAreOfTheTimesOfTheDisks) {
+  const Domain box = test::box_of(6.0, 4.0, true, true);
+  const Disks disks = test::disks_of(rows(3, 2.0));
+  DisplacementTally tally, rounds;
+  begin_displacement(tally, disks, box, 50.0);
+  follow_rounds(rounds, disks, box, 50.0);
+  for (const DisplacementTally* const begun : {&tally, &rounds}) {
+    EXPECT_EQ(begun->looked_at, 50.0);
+    EXPECT_EQ(begun->checked_at, 50.0);
+    EXPECT_EQ(begun->fastest, fastest_speed(WholeDisks(disks, 50.0)));
+  }
+  look_at(tally, disks, box, 51.0);
+  follow_rounds(rounds, disks, box, 51.0);
+  EXPECT_EQ(tally.looked_at, 51.0);
+  EXPECT_EQ(rounds.looked_at, 51.0);
+}
+
 // 4 D t where collisions are rare; the standard error of a mean of n squares of two components is 1 / sqrt(n).
 TEST(Displacement, BrownianMotionGivesFourDt) {
   for (const Method method : {Method::pairwise, Method::exact}) {

@@ -56,6 +56,16 @@ TEST(EnergyGain, IsHeldAgainstAllThatHasPassedThrough) {
   EXPECT_FALSE(warns(closed_box(Method::exact), state, 10.0 + 1e-3));
 }
 
+// A potential is 0 at the lower left corner: one far below 0 is as inexact as one far above.
+TEST(EnergyGain, IsHeldAgainstANegativePotentialToo) {
+  const RunStart deep{1, 0.0, {5.0, -1e6, 0.0}, {}};
+  const auto warns_of = [&](double gain) {
+    return !energy_warnings(closed_box(Method::exact), deep, {}, Energy{5.0 + gain, -1e6, 0.0}).empty();
+  };
+  EXPECT_FALSE(warns_of(0.9e-3));
+  EXPECT_TRUE(warns_of(1.1e-3));
+}
+
 // Gravity to the right or up makes potentials negative: a disk that has left with one leaves more than there was.
 TEST(EnergyGain, IsUnknownWhereDisksMayHaveTakenLessThanNothing) {
   State state;

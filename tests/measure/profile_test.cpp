@@ -106,6 +106,11 @@ TEST(Profiles, TheLastMomentBelongsToTheLastRow) {
   EXPECT_EQ(samples_of_rows({1.0, 2.0, 3.0, 4.0, 5.0}, 2.0), (std::vector<Count>{2, 3})) << "the last at 3, 4 and 5";
 }
 
+// A run that ends where its analysis begins has one sample, and one row.
+TEST(Profiles, ARunOfNoLengthHasARow) {
+  EXPECT_EQ(samples_of_rows({1.0}, 2.0), (std::vector<Count>{1}));
+}
+
 // Times that are rounded lie a little beside the edges that they are meant to be at: (0.9 - 0.8) / 0.1 is less than 1,
 // and (1.1 - 0.8) / 0.1 more than 3.
 TEST(Profiles, RowsBeginWhereTheyAreMeantTo) {
@@ -183,6 +188,15 @@ TEST(DensityProfile, StorageOrderChangesNoBit) {
   };
   std::vector<Disk> turned(list.rbegin(), list.rend());
   EXPECT_EQ(covered(list), covered(turned));
+}
+
+// Of a disk that weighs nothing against the other, the heavy one's energy is all but that of the mean velocity, and
+// rounding may take off more than is left.
+TEST(MotionProfile, RoundingMakesNoNegativeTemperature) {
+  MotionProfile profile = empty_profile(1);
+  const Disks disks = test::disks_of({{1.0, 1.0, 0.0, 0.0, 0.1, 1e-30}, {3.0, 1.0, 1.7, 0.0, 0.1, 1.2}});
+  add_motion(profile, disks, test::box_of(4.0, 4.0), false);
+  EXPECT_EQ(motion_of_slab(profile, 0).temperature, 0.0);
 }
 
 TEST(SpeedHistogram, CountsReducedSpeeds) {

@@ -2,6 +2,8 @@
 // mean pressure and collision rate are those of all disks.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/measure/analysis.hpp"
 #include "core/measure/measured_disks.hpp"
 #include "tests/support/disks_by_hand.hpp"
@@ -83,6 +85,45 @@ TEST_F(Selection, MeansAreThoseOfAllDisks) {
   EXPECT_EQ(selected_.series.pressure[1], all_.series.pressure[1]);
   EXPECT_NE(selected_.series.pressure[1], alone_.series.pressure[1]);
   EXPECT_EQ(selected_.series.collision_rate[1], 14.0);
+}
+
+// What happened before the first sample, however long that took, is in no mean.
+TEST(FirstSample, HasNoMeans) {
+  Scene scene = scene_of_all_quantities();
+  AnalysisRecord record = empty_record(scene);
+  test::Draws draws(42);
+  const Disks disks = test::disks_of(test::random_disks(draws, scene.box, 20, {0.1, 0.3, 1.0, 4.0, 2.0}));
+  State now;
+  now.time = now.counters.disk_time = 5.0;
+  now.counters.virial = 30.0;
+  now.counters.collisions = 7;
+  take_sample(record, scene, disks, now.time, now, run_in_order);
+  EXPECT_EQ(record.series.interval, std::vector<double>{0.0});
+  EXPECT_TRUE(std::isnan(record.series.pressure.at(0)));
+  EXPECT_TRUE(std::isnan(record.series.collision_rate.at(0)));
+  now.time = now.counters.disk_time = 7.0;
+  now.counters.collisions = 9;
+  take_sample(record, scene, disks, now.time, now, run_in_order);
+  EXPECT_EQ(record.series.interval.at(1), 2.0);
+  EXPECT_EQ(record.series.collision_rate.at(1), 2.0);
+}
+
+// Fewer than seven disks have no psi6: of a sample with as few there are no pairs, and the next one has its own.
+TEST(BondCorrelation, LeavesOutSamplesOfSixDisks) {
+  const Scene scene = scene_of_all_quantities();
+  test::Draws draws(43);
+  const auto disks = [&](std::size_t count) {
+    return test::disks_of(test::random_disks(draws, scene.box, count, {0.1, 0.3, 1.0, 4.0, 2.0}));
+  };
+  AnalysisRecord record = empty_record(scene), fresh = record;
+  take_sample(record, scene, disks(6), 0.0, {}, run_in_order);
+  EXPECT_EQ(record.bonds.samples, 0U);
+  const Disks more = disks(40);
+  take_sample(record, scene, more, 1.0, {}, run_in_order);
+  take_sample(fresh, scene, more, 1.0, {}, run_in_order);
+  EXPECT_EQ(record.bonds.samples, 1U);
+  EXPECT_EQ(record.bonds.pairs, fresh.bonds.pairs);
+  EXPECT_EQ(record.bonds.product, fresh.bonds.product);
 }
 
 }  // namespace

@@ -43,6 +43,25 @@ TEST(BlockingError, OfFewSamplesIsThatOfIndependentOnes) {
   EXPECT_TRUE(std::isnan(blocking_error({})));
 }
 
+// Samples of 1 and -1, `length` of each in turn.
+std::vector<double> square_wave(std::size_t count, std::size_t length) {
+  std::vector<double> series(count);
+  for (std::size_t k = 0; k < count; ++k) series[k] = k / length % 2 == 0 ? 1.0 : -1.0;
+  return series;
+}
+
+// Blocks of two average such samples away: the largest estimate is the first one.
+TEST(BlockingError, IsTheLargestOfTheEstimates) {
+  EXPECT_DOUBLE_EQ(blocking_error(square_wave(128, 1)), std::sqrt(1.0 / 127.0));
+}
+
+// The longer the blocks of these samples, the larger the estimate, up to blocks of four: of 64 samples there are too
+// few of these, and it is that of blocks of two.
+TEST(BlockingError, TakesNoFewerThan32Blocks) {
+  EXPECT_DOUBLE_EQ(blocking_error(square_wave(64, 4)), std::sqrt(1.0 / 31.0));
+  EXPECT_DOUBLE_EQ(blocking_error(square_wave(128, 4)), std::sqrt(1.0 / 31.0));
+}
+
 // Means over intervals of many lengths, each with an error as of 1 / interval events: the short ones scatter most and
 // count least.
 TEST(BlockingError, OfAWeightedMeanIsWhatThatScattersBy) {

@@ -219,6 +219,20 @@ TEST(TakeNewcomers, KeepsWhatTheOthersHave) {
   }
 }
 
+// All ranks hold the same columns, though only one has the newcomer: its disks may come to any of them.
+TEST(TakeNewcomers, MakesColumnsWhereNoneOfThemIs) {
+  const SlabCut cut{{0.0, 5.0, 10.0}};
+  DiskColumns there;
+  Disks own, first, newcomer;
+  append(first, {1.0, 2.0, 0.0, 0.0, 0.5, 2.0, 0});
+  append(newcomer, {1.0, 8.0, 0.0, 0.0, 0.7, 3.0, 1});
+  take_newcomers(cut, 0, first, true, there, own);
+  take_newcomers(cut, 0, newcomer, false, there, own);
+  EXPECT_TRUE(there.radius && there.mass);
+  EXPECT_EQ(own.radius, std::vector<double>{0.5});
+  EXPECT_EQ(own.mass, std::vector<double>{2.0});
+}
+
 // Rank 0 begins with all disks, and cuts slabs anew at once.
 TEST(Redistribute, GivesDisksToOtherRanksInManyMessages) {
   const Scene scene = test::slab_scene("hot", "width = 100.0\nheight = 120.0\n",
