@@ -235,6 +235,31 @@ class FleetSetGoing : public test::ScriptedEngine {
   }
 };
 
+// A disk that goes up by 3 in a step and is at rest from then on.
+class StoppedDisk : public test::ScriptedEngine {
+ public:
+  StoppedDisk() { append(state_.disks, {3.0, 8.0, 0.0, 3.0, 0.1, 1.0, 0}); }
+  void step() override {
+    state_.time += 1.0;
+    state_.disks.y[0] += state_.disks.vy[0];
+    state_.disks.vy[0] = 0.0;
+  }
+};
+
+// It is as fast as it was when the step began that a disk may have come so far that a look is due.
+TEST(Displacement, OfADiskThatHasStoppedTheSpeedBeforeCounts) {
+  Scene scene = periodic_scene(Method::pairwise, 1.0, 40.0);
+  scene.box.width = scene.box.height = 16.0;
+  StoppedDisk engine;
+  DisplacementTally tally;
+  begin_displacement(tally, engine.state().disks, scene.box, 0.0);
+  engine.step();
+  EXPECT_TRUE(follow_disks(tally, engine, scene, 1.0));
+  look_at(tally, engine.state().disks, scene.box, 1.0);
+  engine.step();
+  EXPECT_FALSE(follow_disks(tally, engine, scene, 2.0));
+}
+
 // Nothing that many disks do from their speeds on says that they will move where others are emitted, or speeds drawn,
 // or where they are hit by what moves by itself: they are asked every time.
 TEST(Displacement, ManyDisksAreAskedWhereSpeedsComeFromElsewhere) {
