@@ -217,14 +217,18 @@ TEST_F(AnalysisFile, EachCurveIsItsOwn) {
 }
 
 TEST_F(AnalysisFile, ErrorsAndTimesOfRowsAreTheirOwn) {
-  write("");
+  const Scene scene = measured_scene("");
+  AnalysisRecord record = made_by_hand(scene);
+  record.density_rows[1].samples = 5;
+  record.motion_rows[1].samples = 4;
+  write(scene, record);
   EXPECT_NEAR(number("/displacement", "diffusion_error"), 0.0, 1e-12) << "of a straight line";
   EXPECT_EQ(number("/displacement", "diffusion_from"), 32.0) << "the second half of the samples";
   EXPECT_NEAR(number("/pressure", "standard_deviation"), 1.0, 1e-2) << "of 3 and 1";
   EXPECT_EQ(numbers("/density/rows/time"), (std::vector<double>{0.0, 32.0}));
   EXPECT_EQ(numbers("/profile/rows/time"), (std::vector<double>{0.0, 40.0}));
-  EXPECT_EQ(numbers("/density/rows/samples"), (std::vector<double>{2.0, 2.0}));
-  EXPECT_EQ(numbers("/profile/rows/samples"), (std::vector<double>{1.0, 1.0}));
+  EXPECT_EQ(numbers("/density/rows/samples"), (std::vector<double>{2.0, 5.0}));
+  EXPECT_EQ(numbers("/profile/rows/samples"), (std::vector<double>{1.0, 4.0}));
   EXPECT_EQ(numbers("/profile/rows/disks"), (std::vector<double>{1.0, 1.0, 1.0, 1.0}));
 }
 

@@ -93,6 +93,36 @@ TEST(Series, RowsHoldStateAndIntervalMeans) {
   EXPECT_EQ(rows[2]["max_overlap"], 0.0);
 }
 
+// From a mark on it has the rows of a run that was never stopped, whatever came after the mark: the means of the next
+// one are over all the time since the last before it.
+TEST(Series, GoesOnFromAMark) {
+  const test::TestFolder folder("series_mark");
+  const auto write = [&](SeriesWriter& series, int k) {
+    State state;
+    state.time = state.counters.disk_time = 0.5 * k * k;
+    state.counters.virial = 3.0 * k;
+    state.counters.collisions = static_cast<Count>(2 * k);
+    state.counters.wall_impulse[1] = 5.0 * k;
+    series.write(test::disks_of({{1.0, 1.5, 3.0, 0.0, 0.5, 2.0}}), state.time, state);
+  };
+  const std::string whole = folder.path() / "whole.csv", stopped = folder.path() / "stopped.csv";
+  SeriesWriter series(whole, small_scene());
+  for (int k = 0; k < 4; ++k) write(series, k);
+  SeriesMark mark;
+  {
+    SeriesWriter before(stopped, small_scene());
+    for (int k = 0; k < 2; ++k) write(before, k);
+    mark = before.mark();
+    EXPECT_EQ(mark.file.frames, 2U);
+    write(before, 9);
+    before.close();
+  }
+  SeriesWriter after(stopped, small_scene(), mark);
+  for (int k = 2; k < 4; ++k) write(after, k);
+  EXPECT_EQ(after.mark().file.frames, 4U);
+  EXPECT_EQ(test::text_of(stopped), test::text_of(whole));
+}
+
 TEST(Series, WithoutDisksEveryNumberIsFinite) {
   const test::TestFolder folder("series");
   const std::string path = folder.path() / "series.csv";
@@ -146,28 +176,31 @@ TEST(SeriesColumns, RotationAndPushesAreTheirOwn) {
 }
 
 // At height 3 and 2 of 4, where a flow of rate 0.5 has speeds 0.5 and 0: the disks have (1, 2) and (-1, 1) beside it.
+// The other way round the flow is the other way, and the viscosity with it, as the stress is the same.
 TEST(SeriesColumns, InAShearTemperatureAndStressAreOfMotionRelativeToTheFlow) {
-  Scene scene = test::scene_of(Method::exact, 10.0, 4.0, 0.0, 10.0);
-  test::set_sides(scene.box, SideKind::periodic, SideKind::periodic);
-  scene.box.shear.rate = 0.5;
-  scene.box.shear.jump = 2.0;
-  const Disks disks = test::disks_of({{2.0, 3.0, 1.5, 2.0, 0.5, 2.0}, {6.0, 2.0, -1.0, 1.0, 0.5, 2.0}});
-  SeriesMeter meter(scene, false);
-  State now;
-  now.counters.shear_virial = 3.0;
-  now.counters.virial = 5.0;
-  now.time = 1.0;
-  meter.row(WholeDisks(disks, now.time), now, run_in_order);
-  now.counters.shear_virial = 11.0;
-  now.counters.virial = 21.0;
-  now.time = 3.0;
-  const SeriesRow row = meter.row(WholeDisks(disks, now.time), now, run_in_order);
-  const double relative = 5.0 + 2.0;
-  const double stress = -(2.0 * (1.0 * 2.0 - 1.0 * 1.0) + 8.0 / 2.0) / 40.0;
-  EXPECT_THAT(meter.shear_row(), testing::ElementsAre(stress, stress / 0.5, relative / 2.0, 0.0));
-  for (std::size_t k = 0; k < row.size(); ++k) {
-    if (std::string(series_columns[k].name) != "pressure") continue;
-    EXPECT_DOUBLE_EQ(row[k], (relative + 16.0 / 4.0) / 40.0);
+  for (const double rate : {0.5, -0.5}) {
+    Scene scene = test::scene_of(Method::exact, 10.0, 4.0, 0.0, 10.0);
+    test::set_sides(scene.box, SideKind::periodic, SideKind::periodic);
+    scene.box.shear.rate = rate;
+    scene.box.shear.jump = 4.0 * rate;
+    const Disks disks = test::disks_of({{2.0, 3.0, 1.0 + rate, 2.0, 0.5, 2.0}, {6.0, 2.0, -1.0, 1.0, 0.5, 2.0}});
+    SeriesMeter meter(scene, false);
+    State now;
+    now.counters.shear_virial = 3.0;
+    now.counters.virial = 5.0;
+    now.time = 1.0;
+    meter.row(WholeDisks(disks, now.time), now, run_in_order);
+    now.counters.shear_virial = 11.0;
+    now.counters.virial = 21.0;
+    now.time = 3.0;
+    const SeriesRow row = meter.row(WholeDisks(disks, now.time), now, run_in_order);
+    const double relative = 5.0 + 2.0;
+    const double stress = -(2.0 * (1.0 * 2.0 - 1.0 * 1.0) + 8.0 / 2.0) / 40.0;
+    EXPECT_THAT(meter.shear_row(), testing::ElementsAre(stress, stress / rate, relative / 2.0, 0.0));
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      if (std::string(series_columns[k].name) != "pressure") continue;
+      EXPECT_DOUBLE_EQ(row[k], (relative + 16.0 / 4.0) / 40.0);
+    }
   }
 }
 

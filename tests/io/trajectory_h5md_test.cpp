@@ -261,6 +261,8 @@ TEST(TrajectoryH5md, GoesOnAfterAnyFrame) {
       write_frames(writer, 0, 30);
       writer.close();
     }
+    H5mdWriter(path, drifting_scene(), kept).close();
+    EXPECT_EQ(check_frames(path), kept) << "cut off, if nothing follows";
     H5mdWriter writer(path, drifting_scene(), kept);
     EXPECT_EQ(writer.frames(), kept);
     write_frames(writer, kept, 35);

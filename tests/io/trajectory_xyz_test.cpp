@@ -310,6 +310,7 @@ TEST_F(TrajectoryXyz, AFrameIsInTheFileAsSoonAsItIsWritten) {
     EXPECT_FALSE(reader.read(frame));
   }
   EXPECT_EQ(writer.mark().frames, 3U);
+  EXPECT_EQ(XyzWriter(path_, {box_with_periodic_x()}, writer.mark()).mark().frames, 3U) << "from there on";
 }
 
 // Rough disks in a periodic box have both columns: each under its name.
