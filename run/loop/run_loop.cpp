@@ -25,21 +25,27 @@ double slack_of(const Scene& scene) {
 // A function that gets the disks at times of its own, from `start` on.
 struct Watcher {
   const std::function<void(const DisksInPieces&)>* look = nullptr;
-  double start = 0.0, early = 0.0;  // early: how much sooner than start will do
+  bool within_steps = false;  // are times within steps known?
+  double start = 0.0, end = 0.0;
+  double early = 0.0;  // how much sooner than start will do
   FrameSchedule schedule;
 
-  // The time at which it is due in a run that has come to `now`, if it is.
+  // The time at which it is due in a run that has come to `now`, if it is: where only the ends of steps are known, now,
+  // so that two for which one state serves have the same time, whatever rounding does to theirs.
   std::optional<double> due(double now) const {
     if (*look == nullptr || now < start - early) return std::nullopt;
-    const std::optional<double> since = schedule.due(std::max(now - start, 0.0));
-    return since ? std::optional(start + *since) : std::nullopt;
+    const std::optional<double> since = schedule.due(now - start);
+    if (!since) return std::nullopt;
+    if (!within_steps) return now;
+    return *since < end - start ? start + *since : end;
   }
 };
 
 Watcher watcher(const std::function<void(const DisksInPieces&)>& look, const Scene& scene, double every, double start,
                 const std::optional<double>& last) {
   const double slack = slack_of(scene);
-  Watcher w{&look, start, slack * every, {every, scene.run.t_end - start, slack}};
+  const double end = scene.run.t_end;
+  Watcher w{&look, scene.run.method == Method::exact, start, end, slack * every, {every, end - start, slack}};
   if (last) w.schedule.made(*last - start);
   return w;
 }

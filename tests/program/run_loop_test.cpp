@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/support/disks_by_hand.hpp"
@@ -78,6 +79,23 @@ TEST(RunLoop, ExactMakesFramesAndMomentsOfTheirTimes) {
   EXPECT_EQ(engine.asked, 7) << "0 and 2 are the state's own times";
 }
 
+// The last moment is at the end itself, where adding to the start what the run is longer gives another number.
+TEST(RunLoop, TheLastMomentIsAtTheEnd) {
+  for (const auto& [start, end] : std::vector<std::pair<double, double>>{{0.2, 0.9}, {0.3, 0.9}}) {
+    const Scene scene = scene_of(Method::exact, end, 0.0, start, 0.0);
+    ASSERT_NE(start + (end - start), end);
+    Stepping engine(scene, 1.0);
+    std::vector<std::string> kinds;
+    std::vector<double> times;
+    RunObserver observer;
+    observer.frame = [&](const DisksInPieces&) { kinds.emplace_back("f"); };
+    observer.sample = [&](const DisksInPieces& disks) { kinds.emplace_back("s"), times.push_back(disks.time()); };
+    run_to_end(engine, scene, observer);
+    EXPECT_THAT(times, ElementsAre(start, end));
+    EXPECT_THAT(kinds, ElementsAre("f", "s", "s", "f"));
+  }
+}
+
 // A step that ends a rounding before a frame does not stand for it, as it would in time stepping.
 TEST(RunLoop, ExactFramesAreNotARoundingEarly) {
   const Scene scene = scene_of(Method::exact, 1.0, 0.5, 0.0, 0.5);
@@ -94,6 +112,9 @@ TEST(RunLoop, TimeSteppingMakesThemAtTheEndsOfSteps) {
   const Scene scene = scene_of(Method::pairwise, 1.2, 0.35, 0.8, 0.2);
   Stepping engine(scene, 0.1);
   EXPECT_THAT(seen(engine, scene, {}), ElementsAre("f 0", "f 0.4", "f 0.7", "s 0.8", "s 1", "f 1.1", "s 1.2", "f 1.2"));
+  const Scene together = scene_of(Method::pairwise, 1.2, 0.4, 0.8, 0.2);
+  Stepping both(together, 0.1);
+  EXPECT_THAT(seen(both, together, {}), ElementsAre("f 0", "f 0.4", "s 0.8", "f 0.8", "s 1", "s 1.2", "f 1.2"));
   const Scene before = scene_of(Method::pairwise, 1.0, 0.0, 3.0, 0.2);
   Stepping early(before, 0.1);
   EXPECT_THAT(seen(early, before, {}), ElementsAre("f 0", "f 1")) << "it ends before the first moment";
