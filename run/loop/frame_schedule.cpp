@@ -13,7 +13,8 @@ constexpr double end_slack = 1e-6;
 
 }  // namespace
 
-FrameSchedule::FrameSchedule(double every, double t_end, double slack) : every_(every), t_end_(t_end), slack_(slack) {}
+FrameSchedule::FrameSchedule(double every, double t_end, double slack, double start)
+    : every_(every), t_end_(t_end), slack_(slack), start_(start), next_(start) {}
 
 std::optional<double> FrameSchedule::due(double now) const {
   if (finished_) return std::nullopt;
@@ -28,9 +29,9 @@ void FrameSchedule::made(double time) {
     next_ = t_end_;
     return;
   }
-  const double k = std::floor(time / every_ + std::max(slack_, end_slack)) + 1.0;
+  const double k = std::floor((time - start_) / every_ + std::max(slack_, end_slack)) + 1.0;
   // An interval below the rounding of the time itself still moves on.
-  const double next = std::max(k * every_, std::nextafter(time, t_end_));
+  const double next = std::max(start_ + k * every_, std::nextafter(time, t_end_));
   next_ = next < t_end_ - end_slack * every_ ? next : t_end_;
 }
 

@@ -22,31 +22,25 @@ double slack_of(const Scene& scene) {
   return scene.run.method == Method::exact ? 0.0 : slack;
 }
 
-// A function that gets the disks at times of its own, from `start` on.
+// A function that gets the disks at times of its own.
 struct Watcher {
   const std::function<void(const DisksInPieces&)>* look = nullptr;
   bool within_steps = false;  // are times within steps known?
-  double start = 0.0, end = 0.0;
-  double early = 0.0;  // how much sooner than start will do
   FrameSchedule schedule;
 
   // The time at which it is due in a run that has come to `now`, if it is: where only the ends of steps are known, now,
   // so that two for which one state serves have the same time, whatever rounding does to theirs.
   std::optional<double> due(double now) const {
-    if (*look == nullptr || now < start - early) return std::nullopt;
-    const std::optional<double> since = schedule.due(now - start);
-    if (!since) return std::nullopt;
-    if (!within_steps) return now;
-    return *since < end - start ? start + *since : end;
+    if (*look == nullptr) return std::nullopt;
+    const std::optional<double> time = schedule.due(now);
+    return time && !within_steps ? now : time;
   }
 };
 
 Watcher watcher(const std::function<void(const DisksInPieces&)>& look, const Scene& scene, double every, double start,
                 const std::optional<double>& last) {
-  const double slack = slack_of(scene);
-  const double end = scene.run.t_end;
-  Watcher w{&look, scene.run.method == Method::exact, start, end, slack * every, {every, end - start, slack}};
-  if (last) w.schedule.made(*last - start);
+  Watcher w{&look, scene.run.method == Method::exact, {every, scene.run.t_end, slack_of(scene), start}};
+  if (last) w.schedule.made(*last);
   return w;
 }
 
@@ -101,7 +95,7 @@ class FrameMaker {
       if (times[first] != shown) disks = engine_.pieces_at(*times[first], room_);
       shown = times[first];
       (*watchers_[first].look)(*disks);
-      watchers_[first].schedule.made(disks->time() - watchers_[first].start);
+      watchers_[first].schedule.made(disks->time());
     }
   }
 

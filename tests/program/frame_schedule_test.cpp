@@ -1,4 +1,4 @@
-// When frames are due: at 0, at every multiple of an interval, and at the end, whatever the steps between.
+// When frames are due: at the start, at every multiple of an interval, and at the end, whatever the steps between.
 #include "run/loop/frame_schedule.hpp"
 
 #include <gmock/gmock.h>
@@ -69,6 +69,15 @@ TEST(FrameSchedule, FrameIsDueARoundingEarlyWhereStepsAreCounted) {
   schedule.made(0.0);
   EXPECT_FALSE(schedule.due(0.0999));
   EXPECT_EQ(schedule.due(0.1 - 1e-9), 0.1 - 1e-9);
+}
+
+// Frames that begin later than the run, as samples may: 1.38 + (9.38 - 1.38) is less than 9.38 in doubles, and a last
+// frame at that time would never be the last; 0.3 + (0.9 - 0.3) is more than 0.9, which no state has.
+TEST(FrameSchedule, TheLastFrameIsAtTheEndWhereverTheFirstIs) {
+  EXPECT_THAT(frame_times(FrameSchedule(3.0, 9.38, 0.0, 1.38), 0.5, 9.38), ElementsAre(1.38, 4.38, 7.38, 9.38));
+  EXPECT_THAT(frame_times(FrameSchedule(0.0, 9.38, 0.0, 1.38), 0.5, 9.38), ElementsAre(1.38, 9.38));
+  EXPECT_THAT(frame_times(FrameSchedule(1.0, 0.9, 1e-6, 0.3), 0.1, 0.9), ElementsAre(0.3, 0.9));
+  EXPECT_THAT(frame_times(FrameSchedule(1.0, 2.0, 0.0, 2.0), 0.5, 2.0), ElementsAre(2.0));
 }
 
 }  // namespace
