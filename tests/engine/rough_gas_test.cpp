@@ -92,7 +92,7 @@ TEST(LongRoughGas, CoolsAtAConstantRatioOfTemperatures) {
                         Case{{1.0, 0.3, 0.5}, 0.493}}) {
     const Gas& g = c.gas;
     const double theory = theory_of_ratio(g);
-    const double measured = ratio_of(g, 10.0, 20.0, 20);
+    const double measured = ratio_of(g, 10.0, 20.0, 60);
     std::printf("e %.2f, b %.1f, q %.1f: T_rot / T_tr %.4f, theory %.4f, Boltzmann %.3f\n", g.e, g.b, g.q, measured,
                 theory, c.boltzmann);
     EXPECT_NEAR(measured / theory, 1.0, 0.05);
