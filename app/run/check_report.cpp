@@ -25,13 +25,17 @@ std::string range_text(double low, double high) {
   return low == high ? fmt::format("{:g}", low) : fmt::format("{:g} to {:g}", low, high);
 }
 
-std::string sides_text(const Domain& box) {
+std::string sides_text(const Scene& scene) {
+  const Domain& box = scene.box;
   std::string text;
   for (const Side side : all_sides) {
     const auto k = static_cast<std::size_t>(side);
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", side_names[k],
                         side_kind_names[static_cast<std::size_t>(box.side(side))]);
   }
+  if (!scene.walls.empty()) text += "; " + counted(scene.walls.size(), "inner wall");
+  const auto sinks = std::count_if(scene.walls.begin(), scene.walls.end(), [](const InnerWall& w) { return w.sink; });
+  if (sinks > 0) text += fmt::format(", of which {}", counted(static_cast<Count>(sinks), "sink"));
   return text;
 }
 
@@ -169,6 +173,9 @@ std::string disks_text(const Scene& scene, const Findings& f) {
       f.disks > 0 ? fmt::format("{}, radius {}, mass {}", f.disks, range_text(f.smallest_radius, f.largest_radius),
                                 range_text(f.smallest_mass, f.largest_mass))
                   : "none at the start";
+  Count fixed = 0;
+  for (const DiskGroup& group : scene.groups) fixed += group.fixed ? group.count : 0;
+  if (fixed > 0) text += fmt::format("; {} fixed", fixed);
   if (f.population.end > f.population.start) {
     text += fmt::format("; with what sources emit up to {:.0f} at t = {:g}", f.population.end, scene.run.t_end);
   }
@@ -366,7 +373,7 @@ std::string main_text(const Scene& scene, const Findings& f) {
   line("disks", disks_text(scene, f));
   line("box",
        fmt::format("{:g} x {:g}, packing fraction {:.4g}", scene.box.width, scene.box.height, f.packing_fraction));
-  line("sides", sides_text(scene.box));
+  line("sides", sides_text(scene));
   line("physics", physics_text(scene));
   line("method", scene.run.automatic ? choice_text(scene) : method_text(scene));
   if (scene.run.method != Method::exact) line("safe step", step_text(scene, f));

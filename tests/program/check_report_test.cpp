@@ -65,6 +65,15 @@ TEST_F(CheckReport, ThePhysicsIsInWords) {
               HasSubstr("; the TC model, contact time 1e-06\n"));
 }
 
+TEST_F(CheckReport, FixedDisksAndInnerWallsAreCounted) {
+  EXPECT_THAT(said("--set 'walls=[{ from = [1, 1], to = [2, 1] }]'"), HasSubstr(", top wall; 1 inner wall\n"));
+  EXPECT_THAT(said("--set 'walls=[{ from = [1, 1], to = [2, 1] }, { from = [1, 2], to = [2, 2], kind = \"sink\" }]'"),
+              HasSubstr(", top wall; 2 inner walls, of which 1 sink\n"));
+  write("fixed.toml",
+        std::string(two_disks) + "[[disks]]\nfixed = true\ncount = 2\npositions = [[7, 7], [8, 8]]\nradius = 0.5\n");
+  EXPECT_THAT(carom("check fixed.toml").out, HasSubstr("  disks       2, radius 0.5, mass 1 to 3; 2 fixed\n"));
+}
+
 TEST_F(CheckReport, AShearFlowIsInWords) {
   const std::string periodic = "left = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\n";
   write("sheared.toml",
