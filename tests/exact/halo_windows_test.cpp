@@ -197,11 +197,11 @@ TEST(LongHaloWindows, OfOtherScenes) {
 }
 
 // Few disks move in a lattice at rest, in a lane free of it.
-std::string lane(double width, double first, double other, double height) {
+std::string lane(double width, double first, double other, double height, double velocity = -100) {
   return fmt::format(
-      "[[disks]]\ncount = 2\npositions = [[{}, 0.5], [{}, 0.5]]\nvelocities = [[-100, 0], [0, 0]]\nradius = 0.2\n"
+      "[[disks]]\ncount = 2\npositions = [[{}, 0.5], [{}, 0.5]]\nvelocities = [[{}, 0], [0, 0]]\nradius = 0.2\n"
       "mass = 1\n[[disks]]\ncount = 4900\npositions = \"square\"\nregion = [0, 2, {}, {}]\nradius = 0.2\nmass = 1\n",
-      first, other, width, height);
+      first, other, velocity, width, height);
 }
 
 // Of radius 0.2.
@@ -263,13 +263,15 @@ TEST(HaloWindows, PredictAGhostAnewThatRestedHere) {
   EXPECT_EQ(tally.done, 1) << "the next window is void";
 }
 
-// From the first of three parts through the second into the third, whose disk there neither of the first two has.
+// From an outer one of three parts through the second into the third, whose disk there neither of the first two has.
 TEST(HaloWindows, AreVoidWhereADiskComesToAThirdPart) {
-  const Scene scene = make_scene({140, 35, "wall", "", lane(140, 23.8, 108, 35), 1.5, ""});
-  const auto in_parts = make_parallel_engine(scene, initial_state(scene), {3});
-  run_to_end(*in_parts, scene);
-  EXPECT_EQ(in_parts->state().counters.collisions, 1U);
-  EXPECT_EQ(state_hash(in_parts->state().disks), state_hash(run_reference(scene, initial_state(scene)).disks));
+  for (const std::string& disks : {lane(140, 23.8, 108, 35), lane(140, 116.2, 32, 35, 100)}) {
+    const Scene scene = make_scene({140, 35, "wall", "", disks, 1.5, ""});
+    const auto in_parts = make_parallel_engine(scene, initial_state(scene), {3});
+    run_to_end(*in_parts, scene);
+    EXPECT_EQ(in_parts->state().counters.collisions, 1U);
+    EXPECT_EQ(state_hash(in_parts->state().disks), state_hash(run_reference(scene, initial_state(scene)).disks));
+  }
 }
 
 // As far inside of its part as halos are wide, to the last bit, where across the period rounding tells.
