@@ -1,17 +1,11 @@
 #include "core/measure/shear_flow.hpp"
 
-#include "core/measure/invariants.hpp"
-
 namespace carom {
 
 Disks relative_to_flow(Disks disks, const Domain& box) {
   if (!box.shear.acts()) return disks;
   for (std::size_t i = 0; i < disks.size(); ++i) disks.vx[i] -= box.shear.flow(disks.y[i], box.height);
   return disks;
-}
-
-double momentum_flow(const Disks& d, const std::vector<std::size_t>& order, const BlockRunner& run) {
-  return blocked_sum(order, run, [&](std::size_t i) { return d.mass_of(i) * d.vx[i] * d.vy[i]; });
 }
 
 double shear_stress(double momentum_flow, double shear_virial, double elapsed, const Domain& box) {

@@ -1,10 +1,6 @@
 // What is measured in a shear flow: velocities relative to it, stress and viscosity.
 #pragma once
 
-#include <cstddef>
-#include <vector>
-
-#include "core/base/block_runner.hpp"
 #include "core/disks/disks.hpp"
 #include "core/disks/domain.hpp"
 
@@ -14,11 +10,9 @@ namespace carom {
 // not sheared.
 Disks relative_to_flow(Disks disks, const Domain& box);
 
-// Sum of m ux uy of velocities u relative to the flow; order: by_id(relative). Energy.
-double momentum_flow(const Disks& relative, const std::vector<std::size_t>& order, const BlockRunner& run);
-
-// The stress sigma_xy = -P_xy, which is viscosity times shear rate: with P_xy A = sum of m ux uy + shear_virial /
-// elapsed. shear_virial: as in Counters, gathered in the time elapsed. Energy / area; 0 if elapsed is 0.
+// The stress sigma_xy = -P_xy, which is viscosity times shear rate: with P_xy A = momentum_flow + shear_virial /
+// elapsed. momentum_flow: sum of m ux uy of velocities u relative to the flow; energy. shear_virial: as in Counters,
+// gathered in the time elapsed. Energy / area; 0 if elapsed is 0.
 double shear_stress(double momentum_flow, double shear_virial, double elapsed, const Domain& box);
 
 }  // namespace carom

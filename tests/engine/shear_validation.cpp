@@ -41,8 +41,9 @@ Measured measure(const Scene& scene, double from, double every) {
     const State& now = engine->state();
     const Disks relative = relative_to_flow(now.disks, scene.box);
     mean.last = energy_of(relative, 0.0).kinetic / static_cast<double>(relative.size());
-    const double stress = shear_stress(momentum_flow(relative, by_id(relative), run_in_order),
-                                       now.counters.shear_virial - before, now.time - begin, scene.box);
+    double flow = 0.0;
+    for (std::size_t i = 0; i < relative.size(); ++i) flow += relative.mass_of(i) * relative.vx[i] * relative.vy[i];
+    const double stress = shear_stress(flow, now.counters.shear_virial - before, now.time - begin, scene.box);
     mean.viscosity += stress / scene.box.shear.rate / std::sqrt(mean.last);
     mean.temperature += mean.last;
     before = now.counters.shear_virial;
