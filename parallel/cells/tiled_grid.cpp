@@ -35,7 +35,7 @@ std::uint32_t parts_of(double whole, double part) {
 
 // Parts of a side of the box. cell: of the most frequent class; part: wanted; lengths.
 std::uint32_t layers_for(double side, double cell, double part, std::size_t regions) {
-  const auto most = static_cast<std::uint32_t>(std::max(1.0, side / (least_cells_a_layer * cell)));
+  const auto most = static_cast<std::uint32_t>(std::clamp(side / (least_cells_a_layer * cell), 1.0, most_tiles));
   const auto shares = static_cast<std::uint32_t>(regions);
   const std::uint32_t few = most < shares ? most : shares * std::min(most / shares, most_layers_a_region);
   return std::max(few, shares * (parts_of(side, part) / shares));
@@ -52,7 +52,9 @@ void make_tiled_grid(const Domain& box, double largest_radius, const std::vector
   const double tile_area = std::max(static_cast<double>(disks_per_tile), n / most_tiles) * area / n;
   const double longer = std::max(box.width, box.height);
   const double shorter = std::min(box.width, box.height);
-  const std::uint32_t layers = layers_for(longer, cell_of(most), std::sqrt(tile_area), regions);
+  // In a box narrower than a square tile a tile goes from side to side, and is longer.
+  const double thickness = std::max(std::sqrt(tile_area), tile_area / shorter);
+  const std::uint32_t layers = layers_for(longer, cell_of(most), thickness, regions);
   const std::uint32_t tiles_a_layer = parts_of(shorter, tile_area / (longer / layers));
   const bool wide = box.width >= box.height;
   const std::uint32_t bands = wide ? layers : tiles_a_layer;

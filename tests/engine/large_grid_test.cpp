@@ -80,6 +80,23 @@ TEST(LargeGrid, KeysCountTheCellsOfABillionDisks) {
   }
 }
 
+// A channel of one file of disks.
+TEST(LargeGrid, TilesOfANarrowBoxAreNoMoreThan16BitsNumber) {
+  for (const double aspect : {1e6, 1e9, 1e-6, 1e-9}) {
+    for (const std::size_t all : {std::size_t{100'000}, std::size_t{5'000'000}, disks}) {
+      Domain box;
+      box.width = 1e3 * std::sqrt(aspect);
+      box.height = 1e3 / std::sqrt(aspect);
+      for (const std::size_t regions : {std::size_t{1}, std::size_t{2}, std::size_t{64}}) {
+        CellGrid grid;
+        make_tiled_grid(box, 1e-4, {all}, 8192, regions, grid);
+        EXPECT_LE(grid.tiles, 0xffffU) << aspect << ", " << all << " disks";
+        EXPECT_LE(static_cast<double>(all) / grid.keys, 8.0) << aspect << ", " << all << " disks";
+      }
+    }
+  }
+}
+
 // Were a tile's power of two of cells left to rounding, cells could hold 3.5 disks or 7; they have room for eight.
 TEST(LargeGrid, CellsOfEvenTilesHoldAsManyDisksWhateverTheirNumber) {
   for (std::size_t all = 1'000'000; all < 3'000'000'000; all += all / 7) {
