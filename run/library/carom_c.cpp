@@ -168,7 +168,8 @@ carom_status carom_add(carom_world* world, const carom_disk* disk, uint32_t* id)
     check_pointer(disk, "disk");
     const std::optional<DiskId> added =
         s.add({disk->x, disk->y, disk->vx, disk->vy, disk->radius, disk->mass, 0, disk->spin});
-    if (!added) return fail(world, CAROM_NO_ROOM, "the disk would overlap another");
+    if (!added)
+      return fail(world, CAROM_NO_ROOM, "the disk would overlap another, an inner wall or a side that has moved in");
     if (id != nullptr) *id = *added;
     return CAROM_OK;
   });
