@@ -373,7 +373,7 @@ bool Simulation::set_velocity(DiskId id, Vec2 velocity) {
 VisitNear Simulation::visit_near() const {
   return [this](Vec2 centre, double half_width, double half_height, const Visit& visit) {
     if (!edited_ && engine_->visit_near(centre, half_width, half_height, visit)) return;
-    for (std::size_t i = 0; i < state().disks.size(); ++i) visit(i);
+    visit_all(state().disks)(centre, half_width, half_height, visit);
   };
 }
 
