@@ -118,8 +118,10 @@ class Maker {
 
   DiskColumns columns() const {
     const SizeFacts& sizes = disks_.sizes();
-    return {sizes.smallest.radius < sizes.largest.radius,
-            sizes.smallest.mass<sizes.largest.mass, scene_.physics.surfaces.inertia> 0.0};
+    const bool radii_differ = sizes.smallest.radius < sizes.largest.radius;
+    const bool masses_differ = sizes.smallest.mass < sizes.largest.mass;
+    const bool rough = scene_.physics.surfaces.inertia > 0.0;
+    return {radii_differ, masses_differ, rough};
   }
 
   // In the box's own coordinates.
