@@ -196,6 +196,26 @@ TEST_F(LongLauncher, BuildsAgainAfterAChangeInAnyFolderOfTheProgram) {
   }
 }
 
+// Who may not write there can still use what is built; and a build of the program alone leaves that of ranks as it was.
+TEST_F(Launcher, RanksAreBuiltForOnceAndAgainAfterAChange) {
+  for (const char* const program : {"root/build/release/carom", "root/build/release/carom-mpi"}) {
+    write(program, "#!/bin/sh\necho the program\n");
+    fs::permissions(at(program), fs::perms::owner_all);
+  }
+  const auto builds = [&](const std::string& command) {
+    fs::remove(at("root/built"));
+    EXPECT_EQ(launch("root/carom " + command).out, "the program\n");
+    return fs::exists(at("root/built"));
+  };
+  EXPECT_TRUE(builds("run --ranks 2"));
+  EXPECT_FALSE(builds("run --ranks 2"));
+  EXPECT_FALSE(builds("check"));
+  write("root/core/new.hpp", "");
+  EXPECT_TRUE(builds("check"));
+  EXPECT_TRUE(builds("run --ranks 2"));
+  EXPECT_FALSE(builds("run --ranks 2"));
+}
+
 // A key pressed for completion asks what is built, and neither installs nor builds anything.
 TEST_F(Launcher, CompletionBuildsNothing) {
   const std::string complete =
