@@ -6,6 +6,9 @@
 
 namespace carom {
 
+// What some editors begin a text in UTF-8 with.
+inline constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+
 // The whole file as text. where ("file:line: key") is what asked for it. Throws InputError unless it is a regular file
 // that can be read and fits into memory, or an open stream of this process (/dev/stdin, /dev/fd/N) of at most 1 GB.
 std::string read_text_file(const std::string& path, std::string_view where);

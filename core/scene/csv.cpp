@@ -8,6 +8,7 @@
 #include <optional>
 #include <system_error>
 
+#include "core/base/input_file.hpp"
 #include "core/base/input_message.hpp"
 
 namespace carom {
@@ -82,7 +83,7 @@ std::vector<Vec2> parse_csv_pairs(std::string_view text, const std::string& name
   std::vector<Vec2> rows;
   bool first_line = true;
   std::size_t line_number = 0;
-  if (text.substr(0, 3) == "\xef\xbb\xbf") text.remove_prefix(3);  // byte order mark of UTF-8
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   while (!text.empty()) {
     ++line_number;
     const std::size_t end = text.find('\n');

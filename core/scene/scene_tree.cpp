@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/base/input_file.hpp"
 #include "core/base/input_message.hpp"
 
 namespace carom {
@@ -83,7 +84,7 @@ void check_ascii(std::string_view text, const std::string& name) {
 }  // namespace
 
 std::string_view stray_character(std::string_view text) {
-  std::size_t at = text.substr(0, 3) == "\xef\xbb\xbf" ? 3 : 0;  // byte order mark
+  std::size_t at = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
   while (at < text.size()) {
     const char c = text[at];
     if (c == '#') {

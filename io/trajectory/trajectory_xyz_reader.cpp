@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "core/base/check.hpp"
+#include "core/base/input_file.hpp"
 #include "core/base/input_message.hpp"
 #include "core/base/short_number.hpp"
 #include "core/disks/disk_columns.hpp"
@@ -31,8 +32,10 @@ void XyzReader::fail(const std::string& what) const {
 
 bool XyzReader::next_line() {
   ++line_number_;
+  const bool read = static_cast<bool>(std::getline(file_, line_));
+  if (line_number_ == 1 && line_.starts_with(byte_order_mark)) line_.erase(0, byte_order_mark.size());
   // A line without its end may lack digits, too.
-  return static_cast<bool>(std::getline(file_, line_)) && !(growing_ && file_.eof());
+  return read && !(growing_ && file_.eof());
 }
 
 double XyzReader::number(std::string_view text) const {

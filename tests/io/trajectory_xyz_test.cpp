@@ -182,9 +182,12 @@ TEST_F(TrajectoryXyz, OnlyWhatItSaysIsReadFromAHead) {
   }
 }
 
+// And begin with what some editors put there.
 TEST_F(TrajectoryXyz, LinesEndAsOnOtherSystems) {
-  write_text("1 \r\nLattice=\"9 0 0 0 8 0 0 0 1\" pbc=\"F F F\" Time=0.5 " + std::string(columns) +
-             "\r\n1 2 3 4 5 6 7\r\n");
+  write_text(
+      "\xef\xbb\xbf"
+      "1 \r\nLattice=\"9 0 0 0 8 0 0 0 1\" pbc=\"F F F\" Time=0.5 " +
+      std::string(columns) + "\r\n1 2 3 4 5 6 7\r\n");
   XyzReader reader(path_);
   XyzFrame frame;
   ASSERT_TRUE(reader.read(frame)) << error();
