@@ -213,6 +213,7 @@ TEST(LongPieces, ManyDisksGoChunkByChunk) {
   for (const char* select : {"", "select = \"every 2nd\"\n", "select = [0.0, 0.0, 400.0, 250.0]\n"}) {
     const Scene scene =
         parse_scene(fmt::format("[box]\nwidth = 400.0\nheight = 300.0\nleft = \"periodic\"\nright = \"periodic\"\n"
+                                "[physics]\nroughness = {{ tangential_restitution = 0.5, friction = 0.4 }}\n"
                                 "[[disks]]\ncount = 140000\npositions = \"square\"\nradius = 0.01\nmass = 1.5\n"
                                 "[run]\nmethod = \"exact\"\nt_end = 1.0\n[output]\ntrajectory = \"h5md\"\n{}",
                                 select),
