@@ -39,8 +39,9 @@ void for_each_run_near(const GridLevel& level, const std::uint32_t* start, const
                        double reach, Visit&& visit) {
   const Span rows = span_around(y, reach, box.height, level.rows_per_length, level.rows, box.periodic_y());
   Span columns = span_around(x, reach, box.width, level.columns_per_length, level.columns, box.periodic_x());
-  // Across the bottom or the top of a sheared box disks of any column may be near.
-  if (box.shear.acts() && (y < reach || y >= box.height - reach || rows.count == level.rows)) [[unlikely]]
+  // Across the bottom or the top of a sheared box disks of any column may be near; as far as span_around looks.
+  const double seen = reach + span_rounding * box.height;
+  if (box.shear.acts() && (y < seen || y >= box.height - seen || rows.count == level.rows)) [[unlikely]]
     columns = {0, level.columns};
   const std::uint32_t straight = std::min(columns.count, level.columns - columns.first);
   for (std::uint32_t k = 0; k < rows.count; ++k) {
