@@ -30,7 +30,7 @@ struct MoveInput {
 
 // Moves disks [begin, end) of a level as drift and wrap do (core/physics/advance.hpp), with the same operations; writes
 // their coarse positions, and appends those that are further outside their cell than the margin. Returns their largest
-// squared speed.
+// squared speed; where they do not move, a number that says nothing.
 using MoveKernel = double (*)(const MoveInput& in, const GridLevel& level, std::size_t begin, std::size_t end,
                               std::vector<std::uint32_t>& strays);
 
