@@ -159,7 +159,7 @@ SliceOutcome SliceScheduler::outcome() const {
 
 void SliceScheduler::run_single_queue(double per_disk) {
   single_.begin_slice();
-  const auto run = [&](auto events) {
+  const auto run = [&](auto&& events) {
     if (window_.slice_start == 0.0) events.enter_all(per_disk * window_.length);
     events.run();
   };
