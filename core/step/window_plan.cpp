@@ -174,6 +174,20 @@ std::string slow_at_moving_walls(const Scene& scene, const WindowPlan& plan, dou
       may_rest ? "use run.method = \"pairwise\", " : "");
 }
 
+// Where no wall that moves pushes. Coming to rest may look like this, too: not every collapse has a disk whose
+// collisions pile up within a share of a window that counts as no time.
+std::string why_slow(const Scene& scene, const WindowPlan& plan) {
+  if (plan.tc) {
+    return "physics.collapse.contact_time is too short for disks that stay in contact: use a larger one, or "
+           "run.method = \"pairwise\"";
+  }
+  if (loses_energy(scene)) {
+    return "disks come to rest (inelastic collapse), or have hardly any room to move: set physics.collapse = { model = "
+           "\"tc\", contact_time = ... }, or use run.method = \"pairwise\", a larger box or smaller disks";
+  }
+  return "disks have hardly any room to move: use a larger box or smaller disks, or run.method = \"pairwise\"";
+}
+
 }  // namespace
 
 void check_pace(const Scene& scene, State& state, const WindowPlan& plan, const ImpactTally& tally) {
@@ -200,11 +214,7 @@ void check_pace(const Scene& scene, State& state, const WindowPlan& plan, const 
   if (windows < enough_windows) return;
   stall = {};
   if (!slower_than(plan.pace)) return;
-  fail_slow(
-      state.time, windows, advanced,
-      plan.tc ? "physics.collapse.contact_time is too short for disks that stay in contact: use a larger one, or "
-                "run.method = \"pairwise\""
-              : "disks have hardly any room to move: use a larger box or smaller disks, or run.method = \"pairwise\"");
+  fail_slow(state.time, windows, advanced, why_slow(scene, plan));
 }
 
 void fail_collapse(const ExactRules& rules, const EventMark& event, double start) {

@@ -195,6 +195,17 @@ TEST(LongCrowdedWindow, HardlyAnyRoom) {
               AllOf(HasSubstr("stands still"), HasSubstr("room to move"), Not(HasSubstr("collapse"))));
 }
 
+// Where contacts may lose energy it may be collapse as well: both are told.
+TEST(LongCrowdedWindow, HardlyAnyRoomWhereDisksMayComeToRest) {
+  Domain box;
+  box.width = box.height = std::nextafter(2.0, 3.0);
+  Scene scene = plain_scene(box, 1.0);
+  scene.physics.restitution = 0.5;
+  EXPECT_THAT(outcome(scene, state_of({{1, 1, 1, 0.3, 1, 1, 0}})),
+              AllOf(HasSubstr("stands still"), HasSubstr("come to rest (inelastic collapse), or have hardly any room"),
+                    HasSubstr("physics.collapse = {")));
+}
+
 TEST(CrowdedWindow, AtRestOnAnElasticFloorIsNotCalledCollapse) {
   Domain box;
   box.width = box.height = 10.0;
