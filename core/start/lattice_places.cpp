@@ -29,6 +29,12 @@ LatticeRoom lattice_room(const Domain& box, const std::optional<StartRegion>& re
   return room;
 }
 
+// Fixed disks may be wider than the box. On a lattice their sites would then lie outside it.
+bool holds_disk(const Domain& box, double radius) {
+  return (box.periodic_x() || box.width * lattice_rounding >= 2.0 * radius) &&
+         (box.periodic_y() || box.height * lattice_rounding >= 2.0 * radius);
+}
+
 [[noreturn]] void fail_lattice(const Scene& scene, std::size_t group, double radius, const std::string& room,
                                Count capacity) {
   const DiskGroup& g = scene.groups[group];
@@ -52,11 +58,12 @@ LatticePlaces::LatticePlaces(const Scene& scene, std::size_t group, double radiu
   const auto [box, origin] = lattice_room(scene.box, region);
   box_ = box;
   origin_ = origin;
+  const std::string room = fmt::format("the {} of {} x {}", region ? "region" : "box", box.width, box.height);
+  if (!holds_disk(box, radius)) fail_lattice(scene, group, radius, room, 0);
   const auto lattice =
       square ? square_lattice(box, count_, 2.0 * radius) : hexagonal_lattice(box, count_, 2.0 * radius);
   if (!lattice) {
-    fail_lattice(scene, group, radius,
-                 fmt::format("the {} of {} x {}", region ? "region" : "box", box.width, box.height),
+    fail_lattice(scene, group, radius, room,
                  square ? square_capacity(box, 2.0 * radius) : hexagonal_capacity(box, 2.0 * radius));
   }
   lattice_ = *lattice;

@@ -109,8 +109,12 @@ void OpenCells::close_columns(double row, double first, double last) {
 void OpenCells::close_around(double x, double y, double radius) {
   const auto rows = static_cast<double>(rows_);
   const double reach = radius + smallest_;
-  const double low = std::ceil((y - reach) / cell_y_ + cell_margin);
-  const double high = std::floor((y + reach) / cell_y_ - cell_margin);
+  // A fixed disk may be wider than the box by any factor: beyond sides that are not periodic there are no rows to
+  // close.
+  const double first = box_.periodic_y() ? -HUGE_VAL : 0.0;
+  const double end = box_.periodic_y() ? HUGE_VAL : rows;
+  const double low = std::max(first, std::ceil((y - reach) / cell_y_ + cell_margin));
+  const double high = std::min(end, std::floor((y + reach) / cell_y_ - cell_margin));
   for (double row = low; row < high; row += 1.0) {
     // A cell is ruled out when its farthest corner is within reach.
     const double dy = std::max(std::abs(row * cell_y_ - y), std::abs((row + 1.0) * cell_y_ - y));

@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "core/base/check.hpp"
 #include "core/scene/scene_text.hpp"
+#include "core/start/initial_state.hpp"
 #include "tests/support/scene_support.hpp"
 
 namespace carom {
@@ -148,6 +150,42 @@ TEST(KeysTogether, AFixedDiskMayBeWiderThanTheBox) {
   EXPECT_EQ(with_sides(""), "");
   EXPECT_THAT(with_sides("left = \"periodic\"\nright = \"periodic\"\n"),
               HasSubstr("box.width: 10 is too small for a disk of radius 6; expected at least 24, two diameters"));
+}
+
+// A random start among them ends, however wide they are, and a lattice has its sites in the box.
+TEST(KeysTogether, AFixedDiskThatIsWiderThanTheBoxHasItsCentreInIt) {
+  const auto start_of = [](const std::string& radius, const std::string& wide, const std::string& small) {
+    const Scene scene =
+        scene_from("[box]\nwidth = 10\nheight = 8\n[[disks]]\nfixed = true\ncount = 1\npositions = " + wide +
+                   "\nradius = " + radius + "\n[[disks]]\ncount = 1\npositions = " + small +
+                   "\nradius = 0.5\nmass = 1\n[run]\nt_end = 1\n");
+    try {
+      initial_state(scene);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  for (const char* radius : {"30", "1e9", "1e13"}) {
+    EXPECT_THAT(start_of(radius, "[[5, 0]]", "\"random\""), HasSubstr("finds no room")) << radius;
+  }
+  EXPECT_EQ(start_of("5.5", "[[5, 0]]", "\"random\""), "");
+  EXPECT_THAT(start_of("30", "\"square\"", "[[1, 1]]"), HasSubstr("expected at most 0"));
+  EXPECT_THAT(start_of("30", "\"hexagonal\"", "[[1, 1]]"), HasSubstr("expected at most 0"));
+}
+
+// What a thermostat gives is asked of the lightest disk that moves: fixed ones have no mass.
+TEST(KeysTogether, AThermostatIsForDisksThatMove) {
+  const auto with_mass = [](const std::string& mass) {
+    return complaint(
+        "[box]\nwidth = 10\nheight = 8\n[[disks]]\nfixed = true\ncount = 1\npositions = [[5, 4]]\nradius = 1\n"
+        "[[disks]]\ncount = 1\npositions = [[1, 1]]\nradius = 0.1\nmass = " +
+        mass +
+        "\n[physics]\nthermostat = { kind = \"langevin\", temperature = 1e40, rate = 0.5, dt = 0.1 }\n"
+        "[run]\nt_end = 1\n");
+  };
+  EXPECT_EQ(with_mass("1e40"), "");
+  EXPECT_THAT(with_mass("1"), HasSubstr("a disk of mass 1"));
 }
 
 TEST(KeysTogether, BrownianDisksAndSinks) {
