@@ -111,29 +111,34 @@ TEST(Silo, WithTheLongestSafeStep) {
   expect_to_rest(silo);
 }
 
-// The exact method's pile hops with the TC model; on average floor and sides bear the same.
+// The exact method's pile hops with the TC model; on average floor and sides bear the same. How steeply a heap of a
+// hundred disks pushes depends on how they came to lie, by 0.16 of the mean (16 heaps): it is that of eight.
 TEST(Silo, ByTheExactMethodBearsTheSame) {
-  Scene scene = test::silo_scene({100, 1.0, 0.4, 0.6, 0.005});
-  scene.run.method = Method::exact;
-  scene.physics.collapse_contact_time = 2e-3;
-  scene.run.t_end = 60.0;
-  const auto engine = make_parallel_engine(scene, initial_state(scene), {1, 1});
-  while (engine->state().time < 40.0) engine->step();
-  const Counters before = engine->state().counters;
-  const double from = engine->state().time;
-  while (engine->state().time < scene.run.t_end) engine->step();
-  const State& end = engine->state();
-  const auto force = test::mean_forces(before, end.counters, end.time - from);
-  const double liquid = test::side_force_of_liquid(end.disks, scene.box, 1.0);
-  const double left = force[static_cast<std::size_t>(Side::left)];
-  const double right = force[static_cast<std::size_t>(Side::right)];
-  std::printf("exact: floor %.4f, sides %.3f %.3f\n",
-              force[static_cast<std::size_t>(Side::bottom)] / test::weight_of(end.disks, 1.0), left / liquid,
-              right / liquid);
-  EXPECT_NEAR(force[static_cast<std::size_t>(Side::bottom)] / test::weight_of(end.disks, 1.0), 1.0, 0.01);
-  EXPECT_GT(left / liquid, 0.8);
-  EXPECT_LT(left / liquid, 1.25);
-  EXPECT_NEAR(left / right, 1.0, 0.03);
+  constexpr std::uint64_t heaps = 8;
+  double sum = 0.0;
+  for (std::uint64_t seed = 1; seed <= heaps; ++seed) {
+    SCOPED_TRACE(seed);
+    Scene scene = test::silo_scene({100, 1.0, 0.4, 0.6, 0.005});
+    scene.seed = seed;
+    scene.run.method = Method::exact;
+    scene.physics.collapse_contact_time = 2e-3;
+    scene.run.t_end = 60.0;
+    const auto engine = make_parallel_engine(scene, initial_state(scene), {1, 1});
+    while (engine->state().time < 40.0) engine->step();
+    const Counters before = engine->state().counters;
+    const double from = engine->state().time;
+    while (engine->state().time < scene.run.t_end) engine->step();
+    const State& end = engine->state();
+    const auto force = test::mean_forces(before, end.counters, end.time - from);
+    const double left = force[static_cast<std::size_t>(Side::left)];
+    const double right = force[static_cast<std::size_t>(Side::right)];
+    EXPECT_NEAR(force[static_cast<std::size_t>(Side::bottom)] / test::weight_of(end.disks, 1.0), 1.0, 0.01);
+    EXPECT_NEAR(left / right, 1.0, 0.03);
+    sum += left / test::side_force_of_liquid(end.disks, scene.box, 1.0);
+  }
+  std::printf("exact: sides %.3f\n", sum / heaps);
+  EXPECT_GT(sum / heaps, 0.8);
+  EXPECT_LT(sum / heaps, 1.25);
 }
 
 }  // namespace
