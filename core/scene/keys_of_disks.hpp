@@ -19,6 +19,13 @@ inline constexpr std::string_view mass_allowed =
     "}`, `{ from_radius = ... }`, or `{ frame = ... }`";
 inline constexpr std::string_view velocities_allowed =
     "`{ maxwell = ... }`, `{ uniform = ... }`, a list of [vx, vy], `{ file = ... }`, or `{ frame = ... }`";
+// Of disks from sources, however many will come.
+inline constexpr std::string_view radius_drawn =
+    "a number above 0, `{ uniform = ... }`, `{ normal = ... }`, `{ lognormal = ... }`, `{ choice = ... }`, or "
+    "`{ from_mass = ... }`";
+inline constexpr std::string_view mass_drawn =
+    "a number above 0, `{ uniform = ... }`, `{ normal = ... }`, `{ lognormal = ... }`, `{ choice = ... }`, or "
+    "`{ from_radius = ... }`";
 inline constexpr std::string_view range_allowed = "[low, high] with 0 < low <= high";
 
 inline constexpr SceneKey keys[] = {
@@ -140,11 +147,11 @@ inline constexpr SceneKey keys[] = {
      "Centres are drawn uniformly in this rectangle inside the box.", "region = [0.0, 0.0, 10.0, 5.0]",
      "[x0, y0, x1, y1]"},
     {"sources", "rate", non_negative, Dimension::frequency, "required", "Disks per unit time.", "rate = 10.0"},
-    {"sources", "radius", positive, Dimension::length, "required", "Radii; no list.", "radius = 0.5", radius_allowed},
-    {"sources", "mass", positive, Dimension::mass, "required", "Masses; no list.", "mass = 1.0", mass_allowed},
+    {"sources", "radius", positive, Dimension::length, "required", "Radii.", "radius = 0.5", radius_drawn},
+    {"sources", "mass", positive, Dimension::mass, "required", "Masses.", "mass = 1.0", mass_drawn},
     {"sources", "velocities", special, none, "at rest",
-     "Velocities; no list. Through a side the component across it always points inward. Brownian disks forget them.",
-     "velocities = { maxwell = 1.0 }", velocities_allowed},
+     "Velocities. Through a side the component across it always points inward. Brownian disks forget them.",
+     "velocities = { maxwell = 1.0 }", "`{ maxwell = ... }`, or `{ uniform = ... }`"},
     {"sources", "spin", number, Dimension::frequency, "no spin", "Of rough disks, as in `[[disks]]`; no list.",
      "spin = 2.0", "a number"},
     {"sources", "spin_temperature", non_negative, Dimension::energy, "not drawn",
