@@ -87,6 +87,21 @@ TEST_F(Selection, MeansAreThoseOfAllDisks) {
   EXPECT_EQ(selected_.series.collision_rate[1], 14.0);
 }
 
+// A record that was read from a file goes on if each of its series has all samples.
+TEST_F(Selection, ARecordThatLacksASampleOfOneSeriesGoesWithNoScene) {
+  ASSERT_TRUE(goes_with(all_, scene_));
+  using Series = std::vector<double> SampleSeries::*;
+  for (const Series series :
+       {&SampleSeries::time, &SampleSeries::disks, &SampleSeries::interval, &SampleSeries::displacement,
+        &SampleSeries::followed, &SampleSeries::pressure, &SampleSeries::collision_rate, &SampleSeries::temperature,
+        &SampleSeries::autocorrelation, &SampleSeries::local_order, &SampleSeries::global_order,
+        &SampleSeries::bond_autocorrelation}) {
+    AnalysisRecord record = all_;
+    (record.series.*series).pop_back();
+    EXPECT_FALSE(goes_with(record, scene_));
+  }
+}
+
 // What happened before the first sample, however long that took, is in no mean.
 TEST(FirstSample, HasNoMeans) {
   Scene scene = scene_of_all_quantities();
