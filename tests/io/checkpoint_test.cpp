@@ -224,6 +224,21 @@ TEST_F(CheckpointFile, GivesBackItsDisksInPieces) {
   }
 }
 
+// One with an id that is not given yet is found wherever it is in the file.
+TEST_F(CheckpointFile, ADiskThatWasNeverMadeIsRefusedBeyondTheFirstPiece) {
+  State state;
+  state.next_id = static_cast<DiskId>(disks_of_a_read + 2);
+  for (DiskId id = 0; id < state.next_id; ++id) append(state.disks, {0.1 * id, 1.0, 2.0, 3.0, 0.5, 2.0, id});
+  write_checkpoint(path(), full_record(), state);
+  ASSERT_EQ(complaint_of(path()), "");
+  for (const std::size_t back : {1U, 2U}) {
+    State other = state;
+    other.disks.id[other.disks.size() - back] = state.next_id;
+    write_checkpoint(path(), full_record(), other);
+    EXPECT_THAT(complaint_of(path()), testing::HasSubstr("has a disk that was never made"));
+  }
+}
+
 TEST_F(CheckpointFile, AnEmptyStateToo) {
   write_checkpoint(path(), {}, State{});
   const Checkpoint back = read_checkpoint(path());
