@@ -63,6 +63,18 @@ TEST(FrameSchedule, LastFrameSwallowsOneJustBefore) {
   EXPECT_EQ(frame_count(1.0, t_end), 4U);
 }
 
+// (start + k * every - start) / every may be less than k in doubles: then a frame would be due a second time, a
+// rounding later, where no slack is asked for.
+TEST(FrameSchedule, NoFrameComesTwiceWhereItsTimeIsRoundedDown) {
+  std::size_t rounded_down = 0;
+  for (const double start : {0.1, 0.3, 1.38, 7.7}) {
+    for (int k = 1; k < 100; ++k) rounded_down += (start + k * 0.1 - start) / 0.1 < k ? 1 : 0;
+    const double t_end = start + 100 * 0.1;
+    EXPECT_EQ(frame_times(FrameSchedule(0.1, t_end, 0.0, start), t_end, t_end).size(), 101U) << start;
+  }
+  EXPECT_GT(rounded_down, 10U) << "else the test shows nothing";
+}
+
 // Steps add up to a little less than the time of a frame.
 TEST(FrameSchedule, FrameIsDueARoundingEarlyWhereStepsAreCounted) {
   FrameSchedule schedule(0.1, 1.0, 1e-6);
