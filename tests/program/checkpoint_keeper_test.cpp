@@ -90,5 +90,34 @@ TEST(CheckpointKeeper, MakesNoFolderForACallerThatAsksToStop) {
   keeper.discard_own_folder();
 }
 
+// Asked within a step, so that a long one is left before its end.
+TEST(CheckpointKeeper, WantsToStopWhereTheTimeIsUp) {
+  EXPECT_TRUE(CheckpointKeeper({}, WallClock::now(), 0.0, 0.0).wants_stop());
+  EXPECT_FALSE(CheckpointKeeper({}, WallClock::now(), 0.0, never_up).wants_stop());
+}
+
+// A run without results gets a folder for its checkpoint alone. It stays for a run that stops, and goes with one that
+// comes to its end.
+TEST(CheckpointKeeper, TakesTheFolderThatItMadeAwayWhereTheRunEnds) {
+  const test::TestFolder place("keeper");
+  const fs::path here = fs::current_path();
+  fs::current_path(place.path());
+  RunRecord record;
+  record.scene_file = "alone.toml";
+  const fs::path file = fs::path("out") / "alone" / unfinished_name / checkpoint_name;
+  for (const bool ends : {true, false}) {
+    {
+      CheckpointKeeper keeper(record, WallClock::now(), 0.0, 0.0);
+      EXPECT_FALSE(keeper.look(Standing(), 1.0, 0.0));
+      EXPECT_TRUE(fs::exists(file));
+      EXPECT_EQ(keeper.resume_command(), "carom resume out/alone");
+      if (ends) keeper.discard_own_folder();
+    }
+    EXPECT_EQ(fs::exists(file), !ends);
+    EXPECT_EQ(fs::exists("out"), !ends);
+  }
+  fs::current_path(here);
+}
+
 }  // namespace
 }  // namespace carom
