@@ -104,11 +104,11 @@ TEST(LateTimes, DisksTouchASideThatMovesWhereTheReferenceSays) {
   }
 }
 
-// Where a disk is that bounces between walls at `low` and `high`, after a time that long double holds.
-double folded(long double place, long double speed, long double low, long double high, long double time) {
-  const long double room = high - low;
-  const long double way = std::fmod(place - low + speed * time, 2.0L * room);
-  return static_cast<double>(low + (way <= room ? way : 2.0L * room - way));
+// Where a disk is that bounces between walls at `low` and `high`, after some time.
+double folded(double place, double speed, double low, double high, double time) {
+  const double room = high - low;
+  const double way = std::fmod(place - low + speed * time, 2.0 * room);
+  return low + (way <= room ? way : 2.0 * room - way);
 }
 
 // A window lasts as long as the clock goes on, in whole units of its last place: disks are where that time says.
