@@ -341,10 +341,11 @@ double check_box(const Scene& scene, const PlaceOfKey& place) {
   double largest_to_move = 0.0;  // fixed disks may be wider than the box
   double lightest = 0.0;
   const auto add = [&](const DiskSize& low, const DiskSize& high, bool fixed) {
-    if (!fixed) lightest = lightest > 0.0 ? std::min(lightest, low.mass) : low.mass;  // others have no mass
     smallest = smallest > 0.0 ? std::min(smallest, low.radius) : low.radius;
     largest = std::max(largest, high.radius);
-    if (!fixed) largest_to_move = std::max(largest_to_move, high.radius);
+    if (fixed) return;  // no mass of theirs is asked for
+    lightest = lightest > 0.0 ? std::min(lightest, low.mass) : low.mass;
+    largest_to_move = std::max(largest_to_move, high.radius);
   };
   DiskId first_id = 0;
   for (std::size_t g = 0; g < scene.groups.size(); ++g) {

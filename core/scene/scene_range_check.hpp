@@ -22,7 +22,7 @@ void check_positions(const PositionLaw& law, const std::string& path, const Plac
 void check_velocities(const Scene& scene, const VelocityLaw& law, double mass, const std::string& path,
                       const PlaceOfKey& place);
 
-// Speeds that thermal sides give. smallest_mass: of all disks, 0 if there are none.
+// Speeds that a thermostat and thermal sides give. smallest_mass: of all disks that move, 0 if there are none.
 void check_thermal_sides(const Scene& scene, double smallest_mass, const PlaceOfKey& place);
 
 // How many disks a source has to give.

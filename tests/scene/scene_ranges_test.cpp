@@ -75,6 +75,19 @@ TEST(Range, OfEachNumber) {
   EXPECT_EQ(with("{ maxwell = 1.0 }", "[[0, 5e-324], [-0.0, 0], [1e-200, 0]]"), "") << "no speed is too small";
 }
 
+// No mass of fixed disks is asked for, and the one that they have in its place is no disk's.
+TEST(Range, OfSpeedsFromBathsLeavesFixedDisksOut) {
+  const std::string heavy =
+      "[box]\nwidth = 20.0\nheight = 20.0\n[physics]\nthermostat = { kind = \"langevin\", temperature = 1e26, rate = "
+      "0.5, dt = 0.1 }\n[[disks]]\ncount = 2\npositions = [[5.0, 5.0], [10.0, 10.0]]\nradius = 1.0\nmass = 1e26\n";
+  const std::string peg = "[[disks]]\ncount = 1\npositions = [[15.0, 15.0]]\nradius = 1.0\nfixed = true\n";
+  const std::string run = "[run]\nt_end = 1e6\n";
+  EXPECT_EQ(complaint(heavy + run), "");
+  EXPECT_EQ(complaint(heavy + peg + run), "");
+  EXPECT_THAT(complaint(heavy + "[[disks]]\ncount = 1\npositions = [[15.0, 15.0]]\nradius = 1.0\nmass = 1.0\n" + run),
+              HasSubstr("physics.thermostat.temperature: is 1e+26: a disk of mass 1 crosses the box"));
+}
+
 TEST(Range, OfNumbersAgainstEachOther) {
   EXPECT_EQ(
       with("dt = 0.01", "dt = 1e-20"),
