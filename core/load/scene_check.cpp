@@ -62,7 +62,9 @@ void check_group(const DiskGroup& group, const std::string& path, const PlaceOfK
   if (group.velocities.kind == VelocityLaw::Kind::list) {
     check_length(group.velocities.list.size(), group.count, at("velocities"));
   }
-  if (!group.spins.list.empty()) check_length(group.spins.list.size(), group.count, at("spin"));
+  if (!group.spins.list.empty() || !group.spins.file.empty()) {  // a frame may have no disks
+    check_length(group.spins.list.size(), group.count, at("spin"));
+  }
   if (group.radius.kind == SizeLaw::Kind::list) check_length(group.radius.values.size(), group.count, at("radius"));
   if (group.mass.kind == SizeLaw::Kind::list) check_length(group.mass.values.size(), group.count, at("mass"));
   if (group.velocities.kind == VelocityLaw::Kind::maxwell && group.velocities.temperature > 0.0 && group.count == 1) {

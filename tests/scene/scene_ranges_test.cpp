@@ -88,6 +88,19 @@ TEST(Range, OfSpeedsFromBathsLeavesFixedDisksOut) {
               HasSubstr("physics.thermostat.temperature: is 1e+26: a disk of mass 1 crosses the box"));
 }
 
+// A frame of a run whose disks have all left has no spins, which are too few.
+TEST(Range, OfSpinsFromAFrameWithoutDisks) {
+  const std::string text =
+      replaced(replaced(sound_scene, "restitution = 0.5", "roughness = { tangential_restitution = 0.5 }"), "mass = 2.0",
+               "mass = 2.0\nspin = { frame = \"out\" }");
+  try {
+    parse_scene(text, "gas.toml", "", {}, [](const FrameAsked&) { return SceneFrame{}; });
+    ADD_FAILURE() << "read";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "gas.toml:19: disks.0.spin: has 0 entries for count = 3; expected one entry a disk");
+  }
+}
+
 TEST(Range, OfNumbersAgainstEachOther) {
   EXPECT_EQ(
       with("dt = 0.01", "dt = 1e-20"),
