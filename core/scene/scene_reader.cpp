@@ -275,7 +275,7 @@ std::optional<double> TableReader::number(std::string_view name) const {
   if (!in_range(key_row.dimension, value)) {
     fail(name, fmt::format("is {}", value), expected_range(key_row.dimension));
   }
-  return value;
+  return value == 0.0 ? 0.0 : value;  // no zero with a sign: t = -0 in a message
 }
 
 std::optional<Count> TableReader::count(std::string_view name) const {

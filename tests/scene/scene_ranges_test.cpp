@@ -101,6 +101,11 @@ TEST(Range, OfSpinsFromAFrameWithoutDisks) {
   }
 }
 
+TEST(Range, OfZeroHasNoSign) {
+  const Scene scene = parse_scene(replaced(sound_scene, "t_end = 10.0", "t_end = -0.0"), "gas.toml", "");
+  EXPECT_FALSE(std::signbit(scene.run.t_end));
+}
+
 TEST(Range, OfNumbersAgainstEachOther) {
   EXPECT_EQ(
       with("dt = 0.01", "dt = 1e-20"),
