@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/scene/drawn_velocities.hpp"
+#include "core/scene/scene_names.hpp"
 #include "core/scene/size_law.hpp"
 
 namespace carom {
@@ -55,6 +56,27 @@ std::string key_of_motion(const Scene& scene) {
   return "";
 }
 
+// The wall_restitution of the box is what sides have in common; one that no other side has is a side's own.
+std::string key_of_side(const Domain& box, Side side) {
+  const auto alike = std::count(box.restitutions.begin(), box.restitutions.end(), box.restitution(side));
+  if (alike > 1) return "box.wall_restitution";
+  return fmt::format("box.{}.restitution", side_names[static_cast<std::size_t>(side)]);
+}
+
+// The first key that lets a contact take energy, empty if there is none.
+std::string key_of_loss(const Scene& scene) {
+  if (scene.physics.restitution < 1.0) return "physics.restitution";
+  if (scene.physics.law.dissipates()) return "physics.pairs";
+  for (const Side side : all_sides) {
+    if (scene.box.side(side) == SideKind::wall && scene.box.restitution(side) < 1.0)
+      return key_of_side(scene.box, side);
+  }
+  for (std::size_t k = 0; k < scene.walls.size(); ++k) {
+    if (scene.walls[k].restitution < 1.0) return fmt::format("walls.{}.restitution", k);
+  }
+  return "";
+}
+
 }  // namespace
 
 std::vector<std::string> brownian_warnings(const Scene& scene) {
@@ -80,11 +102,10 @@ std::vector<std::string> brownian_warnings(const Scene& scene) {
   if (const std::string key = key_of_motion(scene); !key.empty()) {
     warn(key, "those given here are forgotten in the first step, and nothing drifts");
   }
-  const bool disks = disks_dissipate(scene);
-  if (disks || scene.box.walls_dissipate()) {
-    warn(disks ? "physics.restitution" : "box.wall_restitution",
-         fmt::format("below 1 what met stays nearer, and is too dense within sqrt(2 D dt) = {:.3g} of contact; take 1",
-                     std::sqrt(2.0 * scene.physics.diffusion * scene.run.dt)));
+  if (const std::string key = key_of_loss(scene); !key.empty()) {
+    warn(key, fmt::format("below 1 what met stays nearer, and is too dense within sqrt(2 D dt) = {:.3g} of contact; "
+                          "take 1",
+                          std::sqrt(2.0 * scene.physics.diffusion * scene.run.dt)));
   }
   if (scene.physics.gravity.acts()) {
     warn("physics.gravity", fmt::format("what gravity gives in a step is forgotten in the next, so that disks sink at "
