@@ -9,7 +9,7 @@
 
 namespace carom {
 
-// No normal deviate of this program is larger.
+// No normal deviate is larger, but for one in 10^18.
 inline constexpr double largest_deviate = 9.0;
 
 // Sides that came out of a packing fraction.
