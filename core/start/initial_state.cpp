@@ -289,8 +289,17 @@ State initial_state(const Scene& scene, const PlaceAtRandom& place, const Growth
 }
 
 std::vector<Obstacle> obstacles_of(const Scene& scene) {
-  const bool any = std::any_of(scene.groups.begin(), scene.groups.end(), [](const DiskGroup& g) { return g.fixed; });
-  return any ? initial_state(scene).obstacles : segments_of(scene);
+  const auto any_fixed = [&](auto&& is_it) {
+    return std::any_of(scene.groups.begin(), scene.groups.end(),
+                       [&](const DiskGroup& g) { return g.fixed && is_it(g.positions); });
+  };
+  if (!any_fixed([](const PositionLaw&) { return true; })) return segments_of(scene);
+  // Fixed disks of a list or a lattice stand whatever room others find; and all stand before others grow.
+  const bool drawn = any_fixed([](const PositionLaw& law) { return law.kind == PositionLaw::Kind::random; });
+  const auto nowhere = [](const Scene&, Disks&, PlacementGrid&, const std::vector<std::uint32_t>&) {};
+  GrowthTools none = plain_growth();
+  none.step = [](Disks&, const Domain&, const std::vector<double>&) { return GrowthTally{}; };  // says: all have grown
+  return initial_state(scene, drawn ? PlaceAtRandom(place_at_random) : PlaceAtRandom(nowhere), none).obstacles;
 }
 
 }  // namespace carom

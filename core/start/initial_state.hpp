@@ -21,8 +21,8 @@ void draw_sizes(const Scene& scene, const DiskGroup& group, DiskId first_id, std
 State initial_state(const Scene& scene, const PlaceAtRandom& place = place_at_random,
                     const GrowthTools& growth = plain_growth());
 
-// The obstacles alone, as initial_state has them: fixed disks, then the segments of inner walls. Of a scene without
-// fixed disks no disk is placed for it.
+// The obstacles alone, as initial_state has them: fixed disks, then the segments of inner walls. No disk grows for it,
+// and only where fixed ones are placed at random are others, too.
 std::vector<Obstacle> obstacles_of(const Scene& scene);
 
 }  // namespace carom

@@ -259,6 +259,41 @@ TEST(InitialState, SameBoxInAnyUnits) {
   }
 }
 
+// For which neither disks are placed that do not matter nor any grow.
+TEST(InitialState, HasTheObstaclesThatAreAskedForAlone) {
+  const std::string pegs = "[[disks]]\ncount = 2\nfixed = true\nradius = { uniform = [1, 2] }\npositions = ";
+  const std::string box = "[box]\nwidth = 40\nheight = 30\n";
+  const std::string moving = box + "left = { place = 5, motion = { velocity = [0.1, 0] } }\n";
+  const std::string walls = "[[walls]]\nfrom = [20, 20]\nto = [30, 25]\n";
+  for (const std::string& room : {box, moving}) {
+    for (const std::string fixed : {"[[10, 10], [30, 10]]", "\"square\"", "\"random\""}) {
+      for (const std::string others : {"\"random\"", "\"growth\""}) {
+        const Scene scene =
+            scene_from(room + "[[disks]]\ncount = 40\npositions = " + others + "\nradius = 0.5\nmass = 1\n" + pegs +
+                       fixed + "\n" + walls + "[run]\nt_end = 1\n");
+        const std::vector<Obstacle> all = initial_state(scene).obstacles;
+        const std::vector<Obstacle> alone = obstacles_of(scene);
+        ASSERT_EQ(alone.size(), 3U);
+        ASSERT_EQ(all.size(), 3U);
+        for (std::size_t k = 0; k < all.size(); ++k) {
+          SCOPED_TRACE(testing::Message() << fixed << " among " << others << ", obstacle " << k);
+          EXPECT_EQ(alone[k].x, all[k].x);
+          EXPECT_EQ(alone[k].y, all[k].y);
+          EXPECT_EQ(alone[k].radius, all[k].radius);
+          EXPECT_EQ(alone[k].id, all[k].id);
+          EXPECT_EQ(alone[k].kind, all[k].kind);
+        }
+      }
+    }
+  }
+  // Many disks, which are not to grow twice: this would take minutes.
+  const Scene many = scene_from(
+      "[box]\nwidth = 400\nheight = 400\n[[disks]]\ncount = 160000\npositions = \"growth\"\n"
+      "radius = 0.5\nmass = 1\n" +
+      pegs + "[[100, 100], [300, 300]]\n[run]\nt_end = 1\n");
+  EXPECT_EQ(obstacles_of(many).size(), 2U);
+}
+
 // A drift comes on top of velocities that are given one by one, too; the upper end of a periodic side is the lower one.
 TEST(Positions, GivenOnesDriftAndWrap) {
   const State s = initial_state(
