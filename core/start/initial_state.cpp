@@ -86,7 +86,16 @@ double checked_coordinate(double c, double length, bool periodic, double radius,
   return c;
 }
 
-void place_listed(const Scene& scene, std::size_t group, DiskId first_id, Disks& disks) {
+// What a message calls the room for disks: the box, or what sides that move leave of it at time 0.
+std::string room_text(const Domain& box) {
+  if (!box.has_moving_side()) return fmt::format("inside the box of {} x {}", box.width, box.height);
+  return fmt::format("between the sides at time 0, which are at x = {:g} and {:g}, y = {:g} and {:g}",
+                     box.place(Side::left).inset, box.width - box.place(Side::right).inset,
+                     box.place(Side::bottom).inset, box.height - box.place(Side::top).inset);
+}
+
+// told: the scene as the user has it, where `scene` is what initial_state makes of it.
+void place_listed(const Scene& scene, const Scene& told, std::size_t group, DiskId first_id, Disks& disks) {
   const PositionLaw& law = scene.groups[group].positions;
   const Domain& box = scene.box;
   for (std::size_t k = 0; k < law.list.size(); ++k) {
@@ -98,10 +107,11 @@ void place_listed(const Scene& scene, std::size_t group, DiskId first_id, Disks&
     disks.x[i] = checked_coordinate(law.list[k].x, box.width, box.periodic_x(), room, inside);
     disks.y[i] = checked_coordinate(law.list[k].y, box.height, box.periodic_y(), room, inside);
     if (inside) continue;
+    const Vec2 given = told.groups[group].positions.list[k];
     const std::string from = law.file.empty() ? "" : fmt::format(" (row {} of {})", k + 1, law.file);
     fail_input(place_in_group(scene, group, "positions"),
-               fmt::format("disk {}{} of radius {} at ({}, {}) is not inside the box of {} x {}", i, from, radius,
-                           law.list[k].x, law.list[k].y, box.width, box.height),
+               fmt::format("disk {}{} of radius {} at ({}, {}) is not {}", i, from, radius, given.x, given.y,
+                           room_text(told.box)),
                scene.groups[group].fixed
                    ? "expected its centre in the box"
                    : "expected its centre a radius or more from each wall or sink, and within periodic sides");
@@ -162,8 +172,8 @@ void check_clear_of_walls(const Scene& scene, const Domain& box, const Disks& di
 }
 
 // Groups with a region go first, each by itself: the others find room elsewhere, too. Where disks grow, fixed ones
-// only.
-void set_positions(const Scene& scene, Disks& disks, const PlaceAtRandom& place) {
+// only. told: as of place_listed.
+void set_positions(const Scene& scene, const Scene& told, Disks& disks, const PlaceAtRandom& place) {
   std::vector<std::uint32_t> obstacles;
   std::vector<std::uint32_t> placed;
   std::vector<std::uint32_t> anywhere;
@@ -176,7 +186,7 @@ void set_positions(const Scene& scene, Disks& disks, const PlaceAtRandom& place)
       continue;
     }
     const bool at_random = g.positions.kind == PositionLaw::Kind::random;
-    if (g.positions.kind == PositionLaw::Kind::list) place_listed(scene, group, first_id, disks);
+    if (g.positions.kind == PositionLaw::Kind::list) place_listed(scene, told, group, first_id, disks);
     if (!at_random && g.positions.kind != PositionLaw::Kind::list) place_on_lattice(scene, group, first_id, disks);
     const bool regional = at_random && g.positions.region;
     if (regional) in_regions.emplace_back();
@@ -229,6 +239,33 @@ void take_obstacles(const Scene& scene, State& state) {
   if (disks.empty()) set_sizes_of_source(scene, disks);
 }
 
+// initial_state of a scene whose sides and images are at rest. told: as of place_listed.
+State start_at_rest(const Scene& scene, const Scene& told, const PlaceAtRandom& place, const GrowthTools& growth) {
+  State state;
+  Count total = 0;
+  for (const DiskGroup& g : scene.groups) total += g.count;
+  const auto n = static_cast<std::size_t>(total);
+  Disks& disks = state.disks;
+  set_sizes(scene, disks, n);
+  if (n == 0) set_sizes_of_source(scene, disks);
+  disks.x.resize(n);
+  disks.y.resize(n);
+  const bool all_grow = std::all_of(scene.groups.begin(), scene.groups.end(),
+                                    [](const DiskGroup& g) { return g.positions.kind == PositionLaw::Kind::growth; });
+  if (n > 0 && !all_grow) set_positions(scene, told, disks, place);
+  disks.id.resize(n);  // not before: placing takes the most memory
+  std::iota(disks.id.begin(), disks.id.end(), DiskId{0});
+  state.obstacles = standing_obstacles(scene, disks);
+  if (n > 0 && grows(scene)) place_by_growth(scene, disks, state.obstacles, place, growth);
+  set_velocities(scene, disks);
+  set_spins(scene, disks);
+  take_obstacles(scene, state);
+  state.next_id = static_cast<DiskId>(n);
+  state.sources.resize(scene.sources.size());
+  state.taken.resize(sink_numbers(scene));
+  return state;
+}
+
 }  // namespace
 
 void draw_sizes(const Scene& scene, const DiskGroup& group, DiskId first_id, std::vector<double>& radii,
@@ -253,38 +290,14 @@ void draw_sizes(const Scene& scene, const DiskGroup& group, DiskId first_id, std
 
 State initial_state(const Scene& scene, const PlaceAtRandom& place, const GrowthTools& growth) {
   if (scene.box.has_moving_side()) {
-    return moved_back(scene, initial_state(inside_moving_sides(scene), place, growth));
+    return moved_back(scene, start_at_rest(inside_moving_sides(scene), scene, place, growth));
   }
-  if (scene.box.shear.acts()) {
-    Scene at_rest = scene;  // the images above too, which are not displaced at time 0
-    at_rest.box.shear = {};
-    State state = initial_state(at_rest, place, growth);
-    Disks& d = state.disks;
-    for (std::size_t i = 0; i < d.size(); ++i) d.vx[i] += scene.box.shear.flow(d.y[i], scene.box.height);
-    return state;
-  }
-  State state;
-  Count total = 0;
-  for (const DiskGroup& g : scene.groups) total += g.count;
-  const auto n = static_cast<std::size_t>(total);
-  Disks& disks = state.disks;
-  set_sizes(scene, disks, n);
-  if (n == 0) set_sizes_of_source(scene, disks);
-  disks.x.resize(n);
-  disks.y.resize(n);
-  const bool all_grow = std::all_of(scene.groups.begin(), scene.groups.end(),
-                                    [](const DiskGroup& g) { return g.positions.kind == PositionLaw::Kind::growth; });
-  if (n > 0 && !all_grow) set_positions(scene, disks, place);
-  disks.id.resize(n);  // not before: placing takes the most memory
-  std::iota(disks.id.begin(), disks.id.end(), DiskId{0});
-  state.obstacles = standing_obstacles(scene, disks);
-  if (n > 0 && grows(scene)) place_by_growth(scene, disks, state.obstacles, place, growth);
-  set_velocities(scene, disks);
-  set_spins(scene, disks);
-  take_obstacles(scene, state);
-  state.next_id = static_cast<DiskId>(n);
-  state.sources.resize(scene.sources.size());
-  state.taken.resize(sink_numbers(scene));
+  if (!scene.box.shear.acts()) return start_at_rest(scene, scene, place, growth);
+  Scene at_rest = scene;  // the images above too, which are not displaced at time 0
+  at_rest.box.shear = {};
+  State state = start_at_rest(at_rest, scene, place, growth);
+  Disks& d = state.disks;
+  for (std::size_t i = 0; i < d.size(); ++i) d.vx[i] += scene.box.shear.flow(d.y[i], scene.box.height);
   return state;
 }
 

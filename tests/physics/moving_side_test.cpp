@@ -240,11 +240,11 @@ TEST(LongMovingSide, BearsTheWeightOfAShakenBed) {
 
 // Disks are placed between the sides where they are at the start; so are those of a region, which must lie there.
 TEST(MovingSide, LetsDisksStartWhereThereIsRoom) {
-  const auto scene_with = [](const std::string& positions) {
+  const auto scene_with = [](const std::string& positions, Count count = 30) {
     return parse_scene(
         "[box]\nwidth = 20.0\nheight = 10.0\nleft = { place = 5, motion = { velocity = [0.1, 0] } }\n"
-        "right = { place = 12, motion = { vibrate = [0.5, 0], period = 1 } }\n[[disks]]\ncount = 30\npositions = " +
-            positions + "\nradius = 0.5\nmass = 1.0\n[run]\nt_end = 1.0\n",
+        "right = { place = 12, motion = { vibrate = [0.5, 0], period = 1 } }\n[[disks]]\ncount = " +
+            std::to_string(count) + "\npositions = " + positions + "\nradius = 0.5\nmass = 1.0\n[run]\nt_end = 1.0\n",
         "inner", "");
   };
   for (const std::string positions :
@@ -261,6 +261,14 @@ TEST(MovingSide, LetsDisksStartWhereThereIsRoom) {
     ADD_FAILURE() << "the region reaches beyond the left side";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("region: reaches beyond a side that moves"));
+  }
+  try {
+    initial_state(scene_with("[[5.3, 1.0], [8.0, 5.0]]", 2));
+    ADD_FAILURE() << "the first disk is in the left side";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("disk 0 of radius 0.5 at (5.3, 1) is not between the sides at time 0, which are "
+                          "at x = 5 and 12, y = 0 and 10"));
   }
 }
 
