@@ -19,6 +19,7 @@
 #include "core/scene/scene_roughness.hpp"
 #include "core/scene/scene_thermostat.hpp"
 #include "core/scene/size_law.hpp"
+#include "core/scene/swept_room.hpp"
 #include "core/step/window_plan.hpp"
 
 namespace carom {
@@ -246,7 +247,9 @@ void check_start_region(const StartRegion& region, const Domain& box, double rad
   constexpr std::string_view expected =
       "expected [x0, y0, x1, y1] with x0 < x1, y0 < y1, or { circle = [x, y, r] }, inside the box";
   if (!(low.x < high.x && low.y < high.y)) fail_input(where, "its corners are not in order", expected);
-  if (!(low.x >= 0.0 && low.y >= 0.0 && high.x <= box.width && high.y <= box.height)) {
+  // The edge of a circle is a sum, which rounding may put beyond a side that it touches.
+  const double slack = region.circle ? slack_of_sides(box, region.radius) : 0.0;
+  if (!(low.x >= -slack && low.y >= -slack && high.x <= box.width + slack && high.y <= box.height + slack)) {
     fail_input(where, fmt::format("reaches out of the box of {} x {}", box.width, box.height), expected);
   }
   if (high.x - low.x >= 2.0 * radius && high.y - low.y >= 2.0 * radius) return;

@@ -205,6 +205,18 @@ TEST(StartRegion, ALatticeInACircleIsCentredAndAsWideAsItCanBe) {
   }
 }
 
+// 2.2 + 1.1 is more than 3.3 by its last bit.
+TEST(StartRegion, ACircleMayTouchASideInDecimals) {
+  for (const std::string positions : {"random", "square", "hexagonal"}) {
+    SCOPED_TRACE(positions);
+    const Scene scene =
+        scene_from("[box]\nwidth = 3.3\nheight = 3.3\n[[disks]]\ncount = 30\npositions = \"" + positions +
+                   "\"\nregion = { circle = [2.2, 1.65, 1.1] }\nradius = 0.05\nmass = 1.0\n[run]\nt_end = 1.0\n");
+    const Disks disks = initial_state(scene).disks;
+    EXPECT_LE(*std::max_element(disks.x.begin(), disks.x.end()), 3.25 + 1e-12);
+  }
+}
+
 TEST(StartRegion, BadOnesAreNamedByLineAndKey) {
   const auto region = [](const std::string& kind, const std::string& value) {
     return complaint(scene_with(group(40, kind, "region = " + value + "\n")));
