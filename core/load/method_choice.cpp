@@ -151,13 +151,17 @@ void leave_shear_to_exact(const Scene& scene, MethodOffer& pairwise) {
   pairwise.why = "its errors beside box.shear_rate are not known";
 }
 
-// Brownian motion: both methods draw a displacement each dt, and both are wrong by it.
+// Brownian motion: both methods draw a displacement each dt, and both are wrong by it. Without a disk any dt will do,
+// but a scene with Brownian motion has one.
 void offer_brownian(const Scene& scene, const SceneScales& s, double accuracy, MethodChoice& choice) {
+  constexpr double any = std::numeric_limits<double>::infinity();
+  const bool has_disks = s.disks > 0.0;
   // Collisions of a disk in an interval: rate dt, with a speed of sqrt(2 D / dt), so x sqrt(dt).
-  const double x = 4.0 * (compressibility(s.packing_fraction) - 1.0) *
-                   std::sqrt(2.0 * scene.physics.diffusion / std::numbers::pi) / s.diameter;
+  const double x = has_disks ? 4.0 * (compressibility(s.packing_fraction) - 1.0) *
+                                   std::sqrt(2.0 * scene.physics.diffusion / std::numbers::pi) / s.diameter
+                             : 0.0;
   const double travel = std::sqrt(2.0 * scene.physics.diffusion);
-  const double safe_root = safe_travel * s.smallest_radius / (fastest_share * travel);
+  const double safe_root = has_disks ? safe_travel * s.smallest_radius / (fastest_share * travel) : any;
   for (const Method method : {Method::pairwise, Method::exact}) {
     MethodOffer offer;
     offer.method = method;
@@ -212,7 +216,7 @@ MethodChoice choose_method(const Scene& scene, double accuracy) {
     choice.why = "with physics.accumulate the step is part of the physics; name a method and its dt";
     return choice;
   }
-  if (scene.physics.diffusion > 0.0 && choice.scales.disks > 0.0) {
+  if (scene.physics.diffusion > 0.0) {
     offer_brownian(scene, choice.scales, accuracy, choice);
   } else {
     choice.offers.push_back(offer_pairwise(scene, choice.scales, accuracy));

@@ -77,7 +77,7 @@ std::vector<NamedIds> read_pair_groups(const TableReader& options, const Analysi
     if (std::any_of(groups.begin(), groups.end(), [&](const NamedIds& group) { return group.name == name; })) {
       options.origin().fail(entry, fmt::format("names {} again", in_quotes(name)), "expected each group once");
     }
-    groups.push_back({name, find_group(options, "groups", name, scene)});
+    groups.push_back({name, find_group(options, fmt::format("groups.{}", k), name, scene)});
   }
   return groups;
 }

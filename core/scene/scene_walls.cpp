@@ -34,6 +34,22 @@ std::vector<Vec2> read_points(const TableReader& reader) {
   return points;
 }
 
+// A segment shorter than lengths may be has no direction: the square of its length vanishes.
+void check_lengths(const TableReader& reader, const std::vector<Vec2>& points) {
+  const std::string_view key = reader.find("points") != nullptr ? "points" : "to";
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    const Vec2 p = points[k];
+    const Vec2 before = points[k - 1];
+    if (p == before) {
+      reader.fail(key, fmt::format("comes to [{}, {}] twice in a row", p.x, p.y), "expected segments with a length");
+    }
+    const double length = std::hypot(p.x - before.x, p.y - before.y);
+    if (in_range(Dimension::length, length)) continue;
+    reader.fail(key, fmt::format("has a segment of length {} to [{}, {}]", length, p.x, p.y),
+                expected_range(Dimension::length));
+  }
+}
+
 WallMotion read_motion(const TableReader& wall) {
   const TableReader table = motion_table(wall, "walls.motion");
   const MotionKeys keys = read_motion_keys(wall, table);
@@ -57,12 +73,7 @@ InnerWall read_wall(const SceneOrigin& origin, const std::string& path, const to
   InnerWall wall;
   wall.line = static_cast<int>(table.source().begin.line);
   wall.points = read_points(reader);
-  for (std::size_t k = 1; k < wall.points.size(); ++k) {
-    const Vec2 p = wall.points[k];
-    if (p != wall.points[k - 1]) continue;
-    reader.fail(reader.find("points") != nullptr ? "points" : "to",
-                fmt::format("comes to [{}, {}] twice in a row", p.x, p.y), "expected segments with a length");
-  }
+  check_lengths(reader, wall.points);
   wall.sink = reader.choice_or_initial("kind") == 1;
   const double common = (*origin.root)["box"]["wall_restitution"].value_or(1.0);
   const std::optional<double> own = reader.number("restitution");

@@ -131,6 +131,9 @@ TEST(KeysTogether, WallsHaveALengthAndSinksNoRestitution) {
               HasSubstr("walls.0.to: comes to [12, 2] twice in a row"));
   EXPECT_THAT(complaint(scene_with("", "", "", "[[walls]]\npoints = [[12, 2], [14, 8], [14, 8]]\n")),
               HasSubstr("walls.0.points: comes to [14, 8] twice in a row"));
+  // The square of such a length is 0, and a disk that met it left with half its energy.
+  EXPECT_THAT(complaint(scene_with("", "", "", "[[walls]]\npoints = [[0, 2], [3e-162, 2]]\n")),
+              HasSubstr("walls.0.points: has a segment of length 3e-162 to [3e-162, 2]; expected "));
 }
 
 // Of sizes that are drawn the largest and the lightest count.
