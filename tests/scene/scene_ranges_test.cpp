@@ -127,6 +127,11 @@ TEST(Range, OfNumbersAgainstEachOther) {
         HasSubstr("box.bottom.motion.period: is 1e-28: 2e+29 half periods until run.t_end = 10; expected at most"));
     EXPECT_THAT(with("[run]", "[[walls]]\nfrom = [1, 0.5]\nto = [2, 0.5]\n" + motion + "\n[run]"),
                 HasSubstr("walls.0.motion.period: is 1e-28: 2e+29 half periods"));
+    // Of 2^53 the end of the last one is none that a double holds.
+    const std::string many =
+        fmt::format("motion = {{ vibrate = [0, 1e-17], period = {}, shape = \"{}\" }}", 20.0 * 0x1p-53, shape);
+    EXPECT_THAT(with("[physics]", "bottom = { " + many + " }\n[physics]"),
+                HasSubstr("half periods until run.t_end = 10"));
   }
   EXPECT_THAT(with("maxwell = 1.0", "uniform = 1e20"),
               HasSubstr("16: disks.0.velocities: uniform = 1e+20 crosses the box"));
