@@ -101,7 +101,7 @@ TEST(AnalysisScene, OneLineForWhatItDoesNotTake) {
       {"what = [\"profile\"]\nprofile = { every = 1e-6 }",
        "analysis.profile.every: is 1e-06, which makes 1e+07 rows; expected at least 0.0001, for 100000 rows"},
       {"what = [\"pair_correlation\"]\npair_correlation = { groups = [\"heavy\"] }",
-       "analysis.pair_correlation.groups: "},
+       "analysis.pair_correlation.groups.0: "},
       {"what = [\"pair_correlation\"]\npair_correlation = { groups = 3 }",
        "analysis.pair_correlation.groups: is an integer; expected a list of the names of groups"},
       {"what = [\"bond_correlation\"]\nbond_correlation = { r_max = 4.5 }",

@@ -374,6 +374,15 @@ TEST(MethodAuto, TakesTheChoiceAndWritesIt) {
   EXPECT_TRUE(scene_warnings(again).empty());
 }
 
+// Any dt will do, but a scene with Brownian motion has one.
+TEST(MethodAuto, ChoosesAStepForBrownianMotionWithoutDisks) {
+  const Scene scene = scene_from(
+      "[box]\nwidth = 20.0\nheight = 20.0\n[physics]\ndiffusion = 0.1\n[[disks]]\ncount = 0\npositions = "
+      "\"random\"\nradius = 0.5\nmass = 1.0\n[run]\nmethod = \"auto\"\naccuracy = 1e-3\nt_end = 1.0\n");
+  EXPECT_GT(scene.run.dt, 0.0);
+  EXPECT_EQ(scene_from(resolved_toml(scene)).run.dt, scene.run.dt);
+}
+
 // A dt beside it is not used, and the line that says what was chosen says that, too.
 TEST(MethodAuto, SaysThatADtBesideItIsNotUsed) {
   const Scene scene = scene_from(automatic("accuracy = 1e-4"));
