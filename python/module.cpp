@@ -53,7 +53,8 @@ py::array_t<double> size_column(const std::vector<double>& column, std::size_t n
   return column.empty() ? repeated(n, common) : copied(column);
 }
 
-py::dict columns_of(const Disks& d) {
+// spins: of rough disks, none of which may be there.
+py::dict columns_of(const Disks& d, bool spins) {
   py::dict columns;
   columns["x"] = copied(d.x);
   columns["y"] = copied(d.y);
@@ -62,7 +63,7 @@ py::dict columns_of(const Disks& d) {
   columns["radius"] = size_column(d.radius, d.size(), d.common_radius);
   columns["mass"] = size_column(d.mass, d.size(), d.common_mass);
   columns["id"] = copied(d.id);
-  if (!d.spin.empty()) columns["spin"] = copied(d.spin);
+  if (spins) columns["spin"] = copied(d.spin);
   return columns;
 }
 
@@ -151,7 +152,7 @@ class PySimulation {
     columns["id"] = shown(d.id);
     if (!d.radius.empty()) columns["radius"] = shown(d.radius);
     if (!d.mass.empty()) columns["mass"] = shown(d.mass);
-    if (!d.spin.empty()) columns["spin"] = shown(d.spin);
+    if (d.spins()) columns["spin"] = shown(d.spin);
     return columns;
   }
 
@@ -250,9 +251,9 @@ py::object next_frame(TrajectoryReader& reader) {
     there = reader.read(frame);
   }
   if (!there) return py::none();
-  py::dict columns = columns_of(frame.disks);
-  if (!frame.group.empty()) columns["group"] = copied(frame.group);
-  if (!frame.image_x.empty()) {
+  py::dict columns = columns_of(frame.disks, frame.has_spins);
+  if (frame.has_groups) columns["group"] = copied(frame.group);
+  if (frame.has_images) {
     columns["image_x"] = copied(frame.image_x);
     columns["image_y"] = copied(frame.image_y);
   }
@@ -338,12 +339,16 @@ void bind_simulation(py::module_& m) {
       .def("warnings", &PySimulation::take_warnings)
       .def("contacts", [](const PySimulation& s) { return copied(s.look().contacts()); })
       .def("paint", &paint)
-      .def("disks", [](const PySimulation& s) { return columns_of(s.look().disks()); })
+      .def("disks",
+           [](const PySimulation& s) {
+             const Disks disks = s.look().disks();
+             return columns_of(disks, disks.spins());
+           })
       .def("disks_at",
            [](const PySimulation& s, double t) {
              Disks disks;
              const double at = s.look().disks_at(t, disks);
-             return py::make_tuple(at, columns_of(disks));
+             return py::make_tuple(at, columns_of(disks, disks.spins()));
            })
       .def("save", [](const PySimulation& s, const std::string& file) { s.look().save(file); })
       .def("save_bytes", [](const PySimulation& s) { return py::bytes(s.look().save()); })

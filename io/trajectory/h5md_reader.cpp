@@ -168,6 +168,9 @@ void H5mdReader::File::read_frame(Count next, TrajectoryFrame& frame) {
   frame = {};
   frame.box = box;
   frame.time = times[next];
+  frame.has_groups = true;
+  frame.has_images = has_image;
+  frame.has_spins = has_spin;
   for (std::size_t p = 0; p < places; ++p) {
     if (ids[p] == h5md_no_id) continue;
     if (p >= radii.size() || p >= masses.size() || p >= groups.size()) {

@@ -21,6 +21,8 @@ struct TrajectoryFrame {
   std::vector<DiskId> group;  // of each disk (disk_group.hpp); empty where the file does not have it
   // How often each has gone round across the periodic sides, since the file's first frame that shows it; likewise.
   std::vector<std::int32_t> image_x, image_y;
+  // What the file has of disks: a frame without any shows it nowhere else.
+  bool has_groups = false, has_images = false, has_spins = false;
 };
 
 // Is the frame of a run in this box, as far as files tell?

@@ -312,6 +312,9 @@ bool XyzReader::read_whole(XyzFrame& frame) {
   frame.image_y.clear();
   if (!next_line()) return cut_short();
   read_header(frame);
+  frame.has_groups = layout_.group.width > 0;
+  frame.has_images = layout_.image.width > 0;
+  frame.has_spins = layout_.spin.width > 0;
   for (std::size_t k = 0; k < count; ++k) {
     if (!next_line()) return cut_short();
     read_disk(frame);

@@ -150,3 +150,29 @@ def test_a_plot_that_could_not_be_drawn_is_an_error(tmp_path, monkeypatch):
     with pytest.raises(carom.RunError, match="energy"):
         carom.run(scene, out=tmp_path / "run", warn=lambda _: None)
     assert (tmp_path / "run" / "trajectory.xyz").exists() and (tmp_path / "run" / "summary.json").exists()
+
+
+@pytest.mark.parametrize("form", ["xyz", "h5md"])
+def test_frames_without_disks_have_the_same_columns(form, tmp_path):
+    """A loop over f.group or f.spin broke off where a sink had taken the last disk."""
+    scene = carom.Scene({
+        "box": {"width": 6.0, "height": 6.0, "left": "sink", "bottom": "periodic", "top": "periodic"},
+        "physics": {"roughness": {"tangential_restitution": 0.5}},
+        "disks": [{"count": 1, "positions": [[2.0, y]], "velocities": [[-2.0, 0.0]], "radius": 0.5, "mass": 1.0}
+                  for y in (2.0, 4.0)],
+        "run": {"method": "pairwise", "dt": 0.01, "t_end": 4.0}, "output": {"trajectory": form, "every": 1.0}})
+    frames = list(carom.run(scene, out=tmp_path / "run", warn=lambda _: None).frames)
+    assert len(frames[0]) == 2 and len(frames[-1]) == 0
+    assert {"group", "image_x", "image_y", "spin"} < set(frames[0].names)
+    for frame in frames:
+        assert frame.names == frames[0].names
+        assert [getattr(frame, name).dtype for name in frame.names] == [getattr(frames[0], name).dtype for name in frame.names]
+        assert len(frame.spin) == len(frame.group) == len(frame.image_x) == len(frame)
+    sim = carom.Simulation(scene, threads=1)
+    names = sim.disks().names
+    with sim.view() as v:
+        assert len(v.spin) == 2
+    sim.run()
+    assert len(sim) == 0 and sim.disks().names == names
+    with sim.view() as v:
+        assert len(v.spin) == 0
