@@ -29,13 +29,15 @@ constexpr std::array<const char*, 17> compared_keys{
     "wall_overlap", "pressure",        "collision_rate", "removed",      "emitted"};
 
 // Likewise, but an earlier version may not have written them, and of some scenes there are none.
-constexpr std::array<const char*, 13> compared_where_both_have{"heat",
+constexpr std::array<const char*, 15> compared_where_both_have{"heat",
                                                                "thermostat_heat",
                                                                "work",
                                                                "wall_work",
                                                                "wall_push",
                                                                "shear_work",
                                                                "waiting",
+                                                               "removed_by",
+                                                               "analysis",
                                                                "worst_overlap",
                                                                "worst_overlap_time",
                                                                "worst_overlap_ids",

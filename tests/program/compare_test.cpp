@@ -358,12 +358,16 @@ TEST_F(CompareSummaries, KeysThatDifferAreNamed) {
 
 // What scenes of some kinds have, and earlier versions did not write.
 TEST_F(CompareSummaries, FiguresThatBothHaveAreCompared) {
-  summary("a", R"({"state_hash": "00ff", "heat": {"left": 1.5}, "waiting": 0, "worst_overlap_ids": [1, 2]})");
-  summary("b", R"({"state_hash": "00ff", "heat": {"left": 2.5}, "waiting": 3, "worst_overlap_ids": [1, 3]})");
+  summary("a", R"({"state_hash": "00ff", "heat": {"left": 1.5}, "waiting": 0, "removed_by": {"left": 1},
+                   "analysis": {"diffusion": 0.5}, "worst_overlap_ids": [1, 2]})");
+  summary("b", R"({"state_hash": "00ff", "heat": {"left": 2.5}, "waiting": 3, "removed_by": {"left": 2},
+                   "analysis": {"diffusion": 0.25}, "worst_overlap_ids": [1, 3]})");
   EXPECT_EQ(carom("compare a b").out,
             "different: summary.json\n"
             "  heat            {\"left\":1.5} against {\"left\":2.5}\n"
             "  waiting         0 against 3\n"
+            "  removed_by      {\"left\":1} against {\"left\":2}\n"
+            "  analysis        {\"diffusion\":0.5} against {\"diffusion\":0.25}\n"
             "  worst_overlap_ids [1,2] against [1,3]\n");
   summary("b", R"({"state_hash": "00ff"})");
   EXPECT_EQ(carom("compare a b").status, 0);
