@@ -48,7 +48,7 @@ void check_folder(const fs::path& folder, bool force) {
        !p.empty() && fs::symlink_status(p, error).type() == fs::file_type::not_found; p = p.parent_path()) {
     made = p;
   }
-  const bool there = fs::create_directories(folder, error) || fs::is_directory(folder);
+  const bool there = fs::create_directories(folder, error) || fs::is_directory(folder, error);
   if (!there || access(folder.c_str(), W_OK) != 0) {
     fail_input(folder.string(), "cannot be made or written to", "expected a folder for the chart (-o)");
   }

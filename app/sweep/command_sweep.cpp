@@ -67,12 +67,12 @@ class Sweep {
   void open_folder() {
     const std::string scene_text = read_text_file(options_.scene, options_.scene);
     std::error_code error;
-    if (fs::is_directory(folder_)) {
+    if (fs::is_directory(folder_, error)) {
       lock_.emplace(folder_);
-    } else if (fs::exists(folder_)) {
+    } else if (fs::exists(folder_, error)) {
       fail_input(folder_.string(), "is a file", "expected a folder for the sweep (-o)");
     }
-    if (fs::exists(plan_file())) {
+    if (fs::exists(plan_file(), error)) {
       const Complaint against = go_on(scene_text);
       if (against.what.empty()) return;
       if (!options_.force) {
@@ -81,7 +81,7 @@ class Sweep {
       }
       fs::remove_all(folder_ / "runs", error);
       fs::remove(folder_ / "sweep.csv", error);
-    } else if (fs::exists(folder_) && !fs::is_empty(folder_, error)) {
+    } else if (fs::exists(folder_, error) && !fs::is_empty(folder_, error)) {
       fail_input(folder_.string(), "holds other files", "expected a new folder for the sweep (-o)");
     }
     begin(scene_text);

@@ -63,7 +63,7 @@ Json summary_in(const std::string& name) {
 }
 
 Output open_output(const std::string& name) {
-  if (!fs::exists(name)) fail_input(name, "does not exist", "expected a folder of a run, or a trajectory");
+  check_present(name);
   if (!fs::is_directory(name)) return {name, name, nullptr};
   Output output{name, trajectory_in(name), summary_in(name)};
   if (output.trajectory.empty() && output.summary.is_null()) {

@@ -20,7 +20,7 @@ namespace carom {
 namespace {
 
 std::string trajectory_of(const std::string& path) {
-  if (!std::filesystem::exists(path)) fail_input(path, "does not exist", "expected a folder of a run, or a trajectory");
+  check_present(path);
   if (!std::filesystem::is_directory(path)) return path;
   const std::string found = trajectory_in(path).string();
   if (!found.empty()) return found;

@@ -1,17 +1,31 @@
 #include "io/trajectory/trajectory_reader.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <fstream>
+#include <system_error>
 
 #include "core/base/input_file.hpp"
+#include "core/base/input_message.hpp"
 #include "io/trajectory/h5md_reader.hpp"
 #include "io/trajectory/trajectory_xyz.hpp"
 
 namespace carom {
 
+void check_present(const std::string& name) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(name, error);
+  if (std::filesystem::exists(status)) return;
+  const bool absent = status.type() == std::filesystem::file_type::not_found;
+  fail_input(name, absent ? "does not exist" : fmt::format("cannot be opened: {}", error.message()),
+             "expected a folder of a run, or a trajectory");
+}
+
 std::filesystem::path trajectory_in(const std::filesystem::path& folder) {
+  std::error_code error;
   for (const char* const name : {"trajectory.xyz", "trajectory.h5"}) {
-    if (std::filesystem::exists(folder / name)) return folder / name;
+    if (std::filesystem::exists(folder / name, error)) return folder / name;
   }
   return {};
 }

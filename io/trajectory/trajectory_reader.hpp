@@ -52,6 +52,10 @@ class TrajectoryReader {
   virtual void follow([[maybe_unused]] const std::string& path) {}
 };
 
+// Throws InputError where there is nothing of this name, or the system does not say: it may be too long, or go round in
+// links.
+void check_present(const std::string& name);
+
 // The trajectory of a run's folder, trajectory.xyz or trajectory.h5; empty if there is none.
 std::filesystem::path trajectory_in(const std::filesystem::path& folder);
 

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 Recording open_recording(const std::string& name) {
   const fs::path path = name;
-  if (!fs::exists(path)) fail_input(name, "does not exist", "expected a folder of a run, or a trajectory");
+  check_present(name);
   if (!fs::is_directory(path)) {
     const fs::path parent = path.parent_path();
     return {parent.empty() ? fs::path(".") : parent, path, parent.filename() == unfinished_name};
@@ -63,8 +63,13 @@ std::optional<Scene> scene_of(const Recording& recording, const WarningSink& war
 }
 
 void check_free(const fs::path& file, bool force) {
-  if (fs::is_directory(file)) fail_input(file.string(), "is a folder", "expected a file (-o)");
-  if (fs::exists(file) && !force) {
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (!fs::status_known(status)) {
+    fail_input(file.string(), "cannot be written: " + error.message(), "expected another file (-o)");
+  }
+  if (fs::is_directory(status)) fail_input(file.string(), "is a folder", "expected a file (-o)");
+  if (fs::exists(status) && !force) {
     fail_input(file.string(), "exists already", "choose another file with -o, or replace it with --force");
   }
 }

@@ -396,6 +396,11 @@ TEST_F(CompareSummaries, WhatCannotBeComparedSaysWhy) {
   expect_error("$C compare a a.xyz", 2, "a and a.xyz: have nothing in common to compare");
   expect_error("$C compare a.xyz a", 2, "a.xyz and a: have nothing in common to compare");
   expect_error("$C compare a nowhere", 2, "nowhere: does not exist");
+  std::filesystem::create_symlink("round", at("round"));
+  for (const char* const command : {"compare a round", "view round", "render round"}) {
+    expect_error(std::string("$C ") + command, 2, "round: cannot be opened: Too many levels of symbolic links");
+  }
+  expect_error("$C view a.xyz -o " + std::string(300, 'a') + ".html", 2, "cannot be written: File name too long");
 }
 
 }  // namespace
