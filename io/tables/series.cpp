@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <fstream>
 #include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "core/base/input_message.hpp"
 #include "core/measure/blocked_tally.hpp"
 #include "core/measure/invariants.hpp"
 #include "core/measure/shear_flow.hpp"
@@ -36,6 +39,31 @@ struct RowTally {
 double overlap_of(const DisksInPieces& disks, const Domain& box, const BlockRunner& run) {
   const std::optional<double> known = disks.max_overlap();
   return known ? *known : max_overlap(disks.whole(), box, run);
+}
+
+std::string heading_of(const Scene& scene) {
+  std::string heading = "t";
+  for (const SeriesColumn& column : series_columns) heading += fmt::format(",{}", column.name);
+  if (scene.analysis.wants(Quantity::displacement)) heading += fmt::format(",{}", displacement_column);
+  for (const SceneSink& sink : sinks_of(scene)) heading += fmt::format(",{}_{}", taken_column.name, sink.name);
+  for (const std::string& name : side_column_names(EnergySources(scene))) heading += "," + name;
+  for (const std::string& name : rotation_column_names(scene)) heading += "," + name;
+  if (scene.box.shear.acts()) {
+    for (const ColumnText& column : shear_columns) heading += fmt::format(",{}", column.name);
+  }
+  for (const GroupColumn& column : GroupMeter(scene).columns()) heading += fmt::format(",{}", column.name);
+  return heading;
+}
+
+// Rows of other columns would make a table of no use, as where an earlier version began it. A file that is missing or
+// short is found out by who opens it.
+const std::string& with_heading(const std::string& path, const Scene& scene) {
+  std::ifstream file(path);
+  std::string heading;
+  if (std::getline(file, heading) && !file.eof() && heading != heading_of(scene)) {
+    fail_input(path, "has other columns than this version of Carom writes", "expected the version that began it");
+  }
+  return path;
 }
 
 }  // namespace
@@ -107,21 +135,11 @@ SeriesWriter::SeriesWriter(const std::string& path, const Scene& scene)
       groups_(scene),
       rotates_(scene.physics.surfaces.are_rough()),
       with_displacement_(scene.analysis.wants(Quantity::displacement)) {
-  std::string heading = "t";
-  for (const SeriesColumn& column : series_columns) heading += fmt::format(",{}", column.name);
-  if (with_displacement_) heading += fmt::format(",{}", displacement_column);
-  for (const SceneSink& sink : sinks_) heading += fmt::format(",{}_{}", taken_column.name, sink.name);
-  for (const std::string& name : side_column_names(sources_)) heading += "," + name;
-  for (const std::string& name : rotation_column_names(scene)) heading += "," + name;
-  if (scene.box.shear.acts()) {
-    for (const ColumnText& column : shear_columns) heading += fmt::format(",{}", column.name);
-  }
-  for (const GroupColumn& column : groups_.columns()) heading += fmt::format(",{}", column.name);
-  file_.write(heading + "\n");
+  file_.write(heading_of(scene) + "\n");
 }
 
 SeriesWriter::SeriesWriter(const std::string& path, const Scene& scene, const SeriesMark& from)
-    : file_(path, from.file.bytes),
+    : file_(with_heading(path, scene), from.file.bytes),
       sources_(scene),
       sinks_(sinks_of(scene)),
       meter_(scene, true, from.meter),

@@ -103,7 +103,7 @@ class SeriesWriter {
   SeriesWriter(const std::string& path, const Scene& scene);
 
   // Goes on behind a mark in a file that is there; what follows it is cut off. Throws InputError where the file is
-  // shorter.
+  // shorter, or has other columns.
   SeriesWriter(const std::string& path, const Scene& scene, const SeriesMark& from);
 
   // One row, which it returns: see SeriesMeter::row. displacement: the mean square, a column where

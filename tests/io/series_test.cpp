@@ -316,5 +316,23 @@ TEST(SeriesColumns, OfBrownianDisksWhatVelocitiesGiveIsNoNumber) {
   }
 }
 
+// One that an earlier version began lacked the columns that came since, and got rows with them.
+TEST(Series, GoesOnWithItsOwnColumnsAlone) {
+  const test::TestFolder folder("series_columns");
+  const std::string path = folder.path() / "series.csv";
+  SeriesMark mark;
+  {
+    SeriesWriter series(path, small_scene());
+    series.write(Disks{}, 0.0, State{});
+    mark = series.mark();
+  }
+  Scene other = small_scene();
+  other.physics.surfaces.inertia = 0.5;
+  EXPECT_THROW(SeriesWriter(path, other, mark), InputError);
+  EXPECT_EQ(read_csv(path).size(), 1U) << "the file is as it was";
+  SeriesWriter(path, small_scene(), mark).write(Disks{}, 1.0, State{});
+  EXPECT_EQ(read_csv(path).size(), 2U);
+}
+
 }  // namespace
 }  // namespace carom
