@@ -83,7 +83,7 @@ std::uint32_t ViewEncoder::place_of(const TrajectoryFrame& frame, std::size_t i)
   disks_.id.push_back(id);
   disks_.radius.push_back(frame.disks.radius_of(i));
   disks_.mass.push_back(frame.disks.mass_of(i));
-  if (!frame.group.empty()) disks_.group.push_back(frame.group[i]);
+  disks_.group.push_back(frame.group.empty() ? 0 : frame.group[i]);  // other programs' frames may differ in columns
   return known->second;
 }
 

@@ -17,7 +17,7 @@ namespace carom {
 
 namespace {
 
-// A JSON string that may stand in a script element: "<" could end it, the two line separators end a line for some.
+// A JSON string that may stand in a script element, which "<" could end.
 std::string json_string(std::string_view text) {
   std::string json = "\"";
   for (const char c : text) {
@@ -192,7 +192,7 @@ std::string head_of(const ViewStory& story, const ViewEncoder& encoder, std::str
                         return fmt::format(R"({{"bits":{},"periodic":{},"quantum":{}}})", axis.bits, axis.periodic,
                                            axis.quantum());
                       }));
-  json += fmt::format(R"(,"fast":{:.4g})", encoder.fast_speed());
+  json += fmt::format(R"(,"fast":{})", json_number(encoder.fast_speed(), "{:.4g}"));
   json += fmt::format(R"(,"table":{{"bytes":{},"check":{}}})", table.size(), crc_of(table));
   json += fmt::format(R"(,"blocks":{})", json_list(encoder.blocks(), json_of_block));
   return json + fmt::format(R"(,"series":{},"curves":{}}})", json_of_series(story.series),
@@ -272,7 +272,8 @@ std::string view_news(const ViewStory& story, const ViewEncoder& encoder, std::s
                       json_of_insets(story.box, times), json_of_shifts(story.wall_motions, times),
                       json_of_new(all.id, disks), json_of_new(all.radius, disks), json_of_new(all.mass, disks),
                       json_of_new(all.group, disks));
-  return json + fmt::format(R"(,"fast":{:.4g},"series":{}}})", encoder.fast_speed(), json_of_series(story.series));
+  return json + fmt::format(R"(,"fast":{},"series":{}}})", json_number(encoder.fast_speed(), "{:.4g}"),
+                            json_of_series(story.series));
 }
 
 }  // namespace carom

@@ -111,6 +111,27 @@ TEST(ViewBlocks, NoDisksAreFramesAsWell) {
   expect_round_trip(random_frames(1, 1, 3, true), {view_axis(20.0, true, 1.0), view_axis(7.0, false, 1.0)});
 }
 
+// Other programs write frames whose columns differ.
+TEST(ViewBlocks, GroupsAreThoseOfTheirDisksWhereFramesLackThem) {
+  std::vector<TrajectoryFrame> frames(2);
+  append(frames[0].disks, {1.0, 2.0, 0.0, 0.0, 0.5, 1.0, 4});
+  append(frames[1].disks, {1.0, 2.0, 0.0, 0.0, 0.5, 1.0, 7});
+  frames[1].time = 1.0;
+  frames[1].group = {3};
+  const ViewEncoder encoder = encoded(frames, {view_axis(20.0, true, 1.0), view_axis(7.0, false, 1.0)});
+  EXPECT_THAT(encoder.disks().group, testing::ElementsAre(0, 3));
+}
+
+// The head of such a page was no JSON, and the page said that its file broke off.
+TEST(ViewPage, ASpeedBeyondAllNumbersIsNone) {
+  std::vector<TrajectoryFrame> frames(2);
+  for (TrajectoryFrame& frame : frames) append(frame.disks, {1.0, 2.0, 0.0, 0.0, 0.5, 1.0, 4});
+  frames[1].disks.x[0] = 3.0;
+  frames[1].time = 1e-200;
+  const ViewEncoder encoder = encoded(frames, {view_axis(20.0, true, 1.0), view_axis(7.0, false, 1.0)});
+  EXPECT_THAT(view_page(ViewStory{}, encoder, {}), HasSubstr("\"fast\":null"));
+}
+
 TEST(LongViewBlocks, ManyDisksMakeBlocksOfFewFrames) {
   const auto frames = random_frames(3, 10, 300'000, true);
   const ViewAxes axes{view_axis(20.0, true, 0.01), view_axis(7.0, false, 0.01)};
