@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "core/step/step_start.hpp"
 #include "core/step/window_plan.hpp"
@@ -14,33 +16,55 @@
 namespace carom::exact_tests {
 namespace {
 
-std::string at_rest(std::size_t count, double left, double right) {
-  return fmt::format(
-      "[[disks]]\ncount = {}\npositions = \"square\"\nregion = [{}, 3, {}, 35]\nradius = 0.2\nmass = 1\n", count, left,
-      right);
+std::string at_rest(std::size_t count, double left, double right, double radius = 0.2) {
+  return fmt::format("[[disks]]\ncount = {}\npositions = \"square\"\nregion = [{}, 5, {}, 35]\nradius = {}\nmass = 1\n",
+                     count, left, right, radius);
 }
 
-// Three parts, the second from 62.29 to 76.39, with halos of 9.33, after one window in which a disk of the second one
-// has flown from 70 to this place. So far inside, both others have it as a ghost: it stays a disk of its part wherever
-// it goes.
-bool lists_are_complete(double place) {
-  const std::string disk =
-      fmt::format("[[disks]]\ncount = 1\npositions = [[70, 0.5]]\nvelocities = [[{}, 0]]\nradius = 0.2\nmass = 1\n",
-                  place < 70.0 ? -1 : 1);
-  const Scene scene = make_scene(
-      {140, 35, "wall", "", disk + at_rest(300, 43, 63) + at_rest(299, 63.5, 77) + at_rest(300, 79, 99), 100, ""});
-  State state = initial_state(scene);
-  state.window = std::abs(place - 70.0);
-  const Executor executor(3, 128);
+// In the lane below the others.
+std::string flying(double x, double velocity, double radius = 0.2) {
+  return fmt::format("[[disks]]\ncount = 1\npositions = [[{}, 2]]\nvelocities = [[{}, 0]]\nradius = {}\nmass = 1\n", x,
+                     velocity, radius);
+}
+
+// Three parts, the second from 62.29 to 76.39, with halos of 9.33 where no disk is larger than 1.17, after one window
+// of this length without a collision.
+struct AfterOneWindow {
+  AfterOneWindow(const std::string& disks, double length, double growth = 0.0)
+      : scene(make_scene({140, 35, "wall", "", disks, 100, ""})), state(initial_state(scene)) {
+    state.window = length;
+    windows.set_growth(growth);
+    const SpeedSummary speeds = summarise_speeds(state.disks, scene.box, executor);
+    const WindowPlan plan = plan_window(scene, state, state.disks.size(), speeds);
+    EXPECT_EQ(windows.run(plan, speeds, WindowState{}), SliceOutcome::done);
+    EXPECT_EQ(windows.parts(), 3U);
+    finish_window(state, state.disks.size(), plan, windows.store_paths(plan));
+    EXPECT_EQ(state.counters.collisions, 0U);
+  }
+
+  // How often the disk of one id lists that of another.
+  int times_listed(DiskId by, DiskId other) const {
+    std::atomic<int> found{0};
+    windows.visit_lists([&](std::size_t i, std::span<const std::uint32_t> near) {
+      if (state.disks.id[i] != by) return;
+      for (const std::uint32_t j : near) found += state.disks.id[j] == other ? 1 : 0;
+    });
+    return found;
+  }
+
+  Scene scene;
+  State state;
+  Executor executor{3, 128};
   PhaseTimes times;
   HaloWindows windows{scene, state, executor, times};
-  const SpeedSummary speeds = summarise_speeds(state.disks, scene.box, executor);
-  const WindowPlan plan = plan_window(scene, state, state.disks.size(), speeds);
-  EXPECT_EQ(windows.run(plan, speeds, WindowState{}), SliceOutcome::done);
-  EXPECT_EQ(windows.parts(), 3U);
-  finish_window(state, state.disks.size(), plan, windows.store_paths(plan));
-  EXPECT_EQ(state.counters.collisions, 0U);
-  return windows.complete_lists();
+};
+
+const std::string lattices = at_rest(300, 43, 63) + at_rest(299, 63.5, 77) + at_rest(300, 79, 99);
+
+// A disk of the second part has flown from 70 to this place. So far inside, both others have it as a ghost: it stays a
+// disk of its part wherever it goes.
+bool lists_are_complete(double place) {
+  return AfterOneWindow(flying(70, place < 70.0 ? -1 : 1) + lattices, std::abs(place - 70.0)).windows.complete_lists();
 }
 
 // Another part's disk may be beyond its end as well, and come as near to the disk as they may grow: if both are less
@@ -48,6 +72,32 @@ bool lists_are_complete(double place) {
 TEST(HaloLists, AreCompleteWhereNoDiskIsFarBeyondItsPart) {
   for (const double place : {57.9, 80.8}) EXPECT_TRUE(lists_are_complete(place)) << place;
   for (const double place : {57.75, 80.95}) EXPECT_FALSE(lists_are_complete(place)) << place;
+}
+
+// Both may grow, even to the largest disk of all, which is in another part: that leaves 4.37.
+TEST(HaloLists, AreCompleteForAllThatTheLargestDiskMayGrow) {
+  const std::string small = at_rest(299, 43, 63, 0.1) + at_rest(299, 63.5, 77, 0.1) + at_rest(300, 79, 99, 0.1);
+  for (const auto& [place, complete] : {std::pair{58.0, true}, std::pair{57.87, false}}) {
+    AfterOneWindow after(flying(70, -1, 0.1) + flying(20, 0) + small, 70 - place, 0.1);
+    EXPECT_EQ(after.windows.complete_lists(), complete) << place;
+  }
+}
+
+// From beyond the halo to a disk at the end of another part, in the last window: it is a ghost there, once.
+TEST(HaloLists, TellOfADiskThatHasJustCome) {
+  AfterOneWindow after(
+      flying(75, 0) + flying(97, -1) + at_rest(300, 43, 63) + at_rest(299, 63.5, 77) + at_rest(299, 79, 99), 20);
+  EXPECT_EQ(after.times_listed(0, 1), 0);
+  for (int k = 0; k < 2; ++k) {
+    EXPECT_TRUE(after.windows.complete_lists());
+    EXPECT_EQ(after.times_listed(0, 1), 1);
+  }
+}
+
+// The lists of the second part are of small disks, and do not reach as far as a large one that has come.
+TEST(HaloLists, AreNotCompleteWhereALargerDiskHasCome) {
+  AfterOneWindow after(flying(97, -1, 1.1) + lattices, 15);
+  EXPECT_FALSE(after.windows.complete_lists());
 }
 
 }  // namespace
