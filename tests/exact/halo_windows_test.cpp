@@ -204,10 +204,10 @@ std::string lane(double width, double first, double other, double height, double
       first, other, velocity, width, height);
 }
 
-// Of radius 0.2.
 struct FlyingDisk {
   double x, y, vx, vy;
   double mass = 1.0;
+  double radius = 0.2;
 };
 
 std::string at_rest(std::size_t count, double left, double right) {
@@ -219,16 +219,18 @@ std::string at_rest(std::size_t count, double left, double right) {
 // Behind these disks there is nothing but a lattice at rest at either end, of so many that two parts meet just behind
 // one disk in the middle, at x = 70.02. Their halos are 4 wide. The first window is as long as any, so that a disk
 // comes far in each of its slices: it is seen only at a slice's end which ghosts went wrong.
-Tally run_in_two_parts(const std::vector<FlyingDisk>& disks, int windows) {
+Tally run_in_two_parts(const std::vector<FlyingDisk>& disks, int windows, const std::string& physics = "",
+                       double t_end = 10.0) {
   std::size_t left = 2499, right = 2500;
   std::string text = "[[disks]]\ncount = 1\npositions = [[70, 20]]\nradius = 0.2\nmass = 1\n";
   for (const FlyingDisk& d : disks) {
     --(d.x < 70.0 ? left : right);
     text +=
-        fmt::format("[[disks]]\ncount = 1\npositions = [[{}, {}]]\nvelocities = [[{}, {}]]\nradius = 0.2\nmass = {}\n",
-                    d.x, d.y, d.vx, d.vy, d.mass);
+        fmt::format("[[disks]]\ncount = 1\npositions = [[{}, {}]]\nvelocities = [[{}, {}]]\nradius = {}\nmass = {}\n",
+                    d.x, d.y, d.vx, d.vy, d.radius, d.mass);
   }
-  const Scene scene = make_scene({140, 35, "wall", "", text + at_rest(left, 0, 20) + at_rest(right, 120, 140), 10, ""});
+  const Scene scene =
+      make_scene({140, 35, "wall", physics, text + at_rest(left, 0, 20) + at_rest(right, 120, 140), t_end, ""});
   State initial = initial_state(scene);
   initial.window = 1e9;
   return run_beside_one_queue(scene, initial, 2, 128, windows);
@@ -261,6 +263,28 @@ TEST(HaloWindows, PredictAGhostAnewThatRestedHere) {
   const Tally tally =
       run_in_two_parts({{65, 0.5, 0, 0}, {73.9, 0.5, 0, 0}, {122.3, 0.5, -100, 0}, {100, 17, 0, 100}}, 2);
   EXPECT_EQ(tally.done, 1) << "the next window is void";
+}
+
+// A disk beyond the halo turns a ghost so lightly that its path keeps its bits, but not its spin. By another ghost,
+// which it hits in the same slice, a disk of this part comes to turn as lightly. (All lengths and times are exact.)
+TEST(HaloWindows, PutAGhostRightThatDiffersInItsSpinAlone) {
+  constexpr double radius = 0.3125;
+  const Tally tally = run_in_two_parts({{68.125, 1, 0, 1, 1, radius},
+                                        {72.125, 1, 0, 1, 1, radius},
+                                        {73.75, 1, -64, 1, 1, radius},
+                                        {74.125, 1.75, -64, -255, 0x1p-70, radius}},
+                                       1, "roughness = { tangential_restitution = 0.5, friction = 0.5 }", 0.08);
+  EXPECT_EQ(tally.done, 1);
+  EXPECT_EQ(tally.void_runs, 0U);
+}
+
+// A part has nothing to take where a wall is its end: else its own disks would become its ghosts.
+TEST(HaloWindows, AreNotVoidWhereAPartEndsAtAWall) {
+  const Scene scene = make_scene({120, 60, "wall", "", random_disks(4000, equal_disks), 1000, ""});
+  const Tally tally = run_beside_one_queue(scene, 2, 1, 12);
+  EXPECT_EQ(tally.parts, 2U);
+  EXPECT_EQ(tally.done, 12);
+  EXPECT_EQ(tally.void_runs, 0U);
 }
 
 // From an outer one of three parts through the second into the third, whose disk there neither of the first two has.
