@@ -94,6 +94,8 @@ int program(int argc, char** argv, RankLead* lead) {
   // A write that cannot be done shall return an error, which we report, rather than end the program.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
+  // Whoever started us may ignore the ends of children, and a program inherits that: nobody would tell how ours end.
+  std::signal(SIGCHLD, SIG_DFL);
   try {
     kernel_set();  // a wrong CAROM_KERNELS is said before anything is done
     return std::visit(Dispatch{argc, argv, lead}, parse_command_line(argc, argv));

@@ -209,6 +209,24 @@ TEST_F(SweepTest, ItsRunsEndWithIt) {
   }
 }
 
+// As under a program that leaves the ends of its children to the system.
+TEST_F(SweepTest, SeesItsRunsEndWhereverItWasStarted) {
+  const pid_t sweep = fork();
+  if (sweep == 0) {
+    constexpr unsigned patience = 100;  // seconds, after which it ends by SIGALRM
+    alarm(patience);
+    std::signal(SIGCHLD, SIG_IGN);
+    if (chdir(folder_.path().c_str()) == 0) {
+      execl(CAROM_PROGRAM, CAROM_PROGRAM, "sweep", "gas.toml", "-o", "s", "--seeds", "2", nullptr);
+    }
+    _exit(127);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(sweep, &status, 0), sweep);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(rows("s/sweep.csv").size(), 3U);
+}
+
 TEST_F(SweepTest, ScriptsRunWhatIsLeft) {
   const std::string words = "sweep gas.toml -o 'a b' --over physics.restitution=0.8,0.9";
   EXPECT_EQ(carom(words + " --emit parallel").first, 0);
