@@ -1,6 +1,7 @@
 #include "app/view/live_run.hpp"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <charconv>
 #include <chrono>
@@ -30,6 +31,12 @@ std::optional<std::size_t> take_number(std::string_view& text) {
   return number;
 }
 
+std::optional<FileIdentity> identity_of(const fs::path& file) {
+  struct stat status {};
+  if (file.empty() || stat(file.c_str(), &status) != 0) return {};
+  return FileIdentity{status.st_dev, status.st_ino};
+}
+
 HttpAnswer found(const char* type, std::string body) {
   return {200, type, std::move(body)};
 }
@@ -44,8 +51,10 @@ LiveRun::LiveRun(const fs::path& folder, const ViewSettings& settings) : folder_
   TrajectoryFrame frame;
   for (bool last_look = false;; std::this_thread::sleep_for(between_looks)) {
     const fs::path trajectory = trajectory_in(folder / unfinished_name);
-    if (!reader_ && !trajectory.empty()) {
+    const std::optional<FileIdentity> file = identity_of(trajectory);
+    if (!reader_ && file) {
       recording_ = {folder, trajectory, true};
+      file_ = *file;
       try {
         reader_ = open_frames(recording_);
       } catch (const InputError&) {
@@ -87,16 +96,22 @@ void LiveRun::add(const TrajectoryFrame& frame) {
   limit_ += (room - limit_ + 1) / 2;
 }
 
+// Has the run brought its trajectory up into the folder? Until it does, an earlier run may have left another there,
+// with a summary.
+bool LiveRun::moved_up() const {
+  return identity_of(trajectory_in(folder_)) == std::optional(file_);
+}
+
 void LiveRun::see_the_end() {
-  const fs::path finished = trajectory_in(folder_);
-  if (!finished.empty()) {
-    recording_ = {folder_, finished, false};
-    reader_->follow(finished.string());
+  const bool finished = moved_up();
+  if (finished) {
+    recording_ = {folder_, trajectory_in(folder_), false};
+    reader_->follow(recording_.trajectory.string());
   }
   TrajectoryFrame frame;
   while (reader_->read(frame)) add(frame);
   ended_ = true;
-  state_ = fs::exists(folder_ / "summary.json") ? "The run is done." : "The run has stopped.";
+  state_ = finished && fs::exists(folder_ / "summary.json") ? "The run is done." : "The run has stopped.";
 }
 
 void LiveRun::read(double seconds) {

@@ -1,6 +1,8 @@
 // A run that goes on, as the page that follows it asks for it.
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -13,6 +15,13 @@
 #include "run/recordings/run_view.hpp"
 
 namespace carom {
+
+// What tells a file from all others, also when it has moved within its file system. While it is open no other has it.
+struct FileIdentity {
+  dev_t device = 0;
+  ino_t number = 0;
+  bool operator==(const FileIdentity&) const = default;
+};
 
 class LiveRun {
  public:
@@ -33,11 +42,13 @@ class LiveRun {
  private:
   void begin(const TrajectoryFrame& frame);
   void add(const TrajectoryFrame& frame);
+  bool moved_up() const;
   void see_the_end();
 
   std::filesystem::path folder_;
   ViewSettings settings_;
   Recording recording_;
+  FileIdentity file_;  // of the trajectory, whatever folder it lies in
   std::unique_ptr<TrajectoryReader> reader_;
   ViewStory story_;
   std::optional<ViewEncoder> encoder_;

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "app/view/http_request.hpp"
@@ -236,6 +237,32 @@ TEST(LiveRun, IsFollowedFrameByFrameToItsEnd) {
   now = news("news/3/3");
   EXPECT_EQ(now["times"], (nlohmann::json{4.0}));
   EXPECT_EQ(now["ended"], true);
+}
+
+// Until the end of a run that replaces an earlier one, that lies beside it.
+TEST(LiveRun, ThatIsStoppedIsNotTheEarlierOne) {
+  const test::TestFolder folder("live_again");
+  const auto path = folder.path() / "out";
+  const auto all_times = [](const LiveRun& live) {
+    return nlohmann::json::parse(live.answer("news/0/0").body)["times"];
+  };
+  {
+    OutputFolder earlier(path, "scene.toml", false);
+    std::ofstream(earlier.path("trajectory.xyz")) << frame_text(10) << frame_text(11) << frame_text(12);
+    std::ofstream(earlier.path("summary.json")) << "{}";
+    earlier.finish();
+  }
+  for (const bool kept : {true, false}) {
+    std::optional<OutputFolder> output(std::in_place, path, "scene.toml", true);
+    std::ofstream(output->path("trajectory.xyz")) << frame_text(0) << frame_text(1);
+    LiveRun live(path, {});
+    if (kept) output->keep_unfinished();
+    output.reset();
+    live.read(1.0);
+    EXPECT_TRUE(live.ended());
+    EXPECT_EQ(live.state(), "The run has stopped.");
+    EXPECT_EQ(all_times(live), (nlohmann::json{0.0, 1.0})) << (kept ? "kept" : "taken away");
+  }
 }
 
 TEST(LiveRun, ItsSeriesGrowsWithTheRun) {
