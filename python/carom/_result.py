@@ -189,11 +189,18 @@ class Result:
 
     @property
     def series(self) -> dict:
-        """Columns of series.csv by name, float64 of shape (frames,)."""
+        """Columns of series.csv by name, float64 of shape (frames,). Raises SceneError where there is none, or it is damaged."""
         path = self._file("series.csv")
         if not os.path.exists(path):
             raise SceneError(f"{path}: is not there; expected a scene with series = true in [output]")
-        table = np.genfromtxt(path, delimiter=",", names=True, deletechars="", ndmin=1)
+        damaged = SceneError(f"{path}: has no heading, or rows of other columns than that; expected series.csv of a run")
+        with open(path, encoding="utf-8", errors="replace") as text:
+            if not text.readline().strip():
+                raise damaged  # numpy would warn of it, and go on without names
+        try:
+            table = np.genfromtxt(path, delimiter=",", names=True, deletechars="", ndmin=1)
+        except (ValueError, IndexError):
+            raise damaged from None
         return {name: table[name] for name in table.dtype.names}
 
     @property
@@ -205,7 +212,7 @@ class Result:
     def analysis(self) -> dict:
         """The data sets of analysis.h5 by their paths, a Column each (needs h5py). A column's attributes are its own and
         those of its group: mean and standard_error of a series, diffusion, diffusion_error, samples, ..., as docs/output.md
-        lists them."""
+        lists them. Raises SceneError where there is none, or it is damaged."""
         import h5py
 
         path = self._file("analysis.h5")
@@ -217,8 +224,12 @@ class Result:
             if isinstance(item, h5py.Dataset):
                 columns[path] = Column(item[()], _attributes(item)) if item.shape else item[()]
 
-        with h5py.File(path) as file:
-            file.visititems(take)
+        try:
+            with h5py.File(path) as file:
+                file.visititems(take)
+        except (OSError, RuntimeError, ValueError) as error:  # as h5py calls what HDF5 finds wrong
+            reason = str(error).partition("\n")[0]
+            raise SceneError(f"{path}: cannot be read: {reason}; expected analysis.h5 of a run") from None
         return columns
 
     def __repr__(self):

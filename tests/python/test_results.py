@@ -360,6 +360,22 @@ def test_everything_has_a_docstring():
         assert type(pickle.loads(pickle.dumps(error))) is type(error)
 
 
+def test_damaged_files_are_named(result, tmp_path):
+    damaged = carom.Result(result.summary, str(tmp_path))
+    whole = open(os.path.join(result.folder, "series.csv"), "rb").read()
+    for text in (b"", b"\n", whole[:whole.rindex(b",")]):
+        (tmp_path / "series.csv").write_bytes(text)
+        with pytest.raises(carom.SceneError, match="series.csv: has no heading, or .* expected series.csv of a run$"):
+            damaged.series
+    (tmp_path / "series.csv").write_bytes(whole[:whole.index(b"\n") + 1])
+    assert damaged.series["kinetic"].shape == (0,)
+    whole = open(os.path.join(result.folder, "analysis.h5"), "rb").read()
+    for size in (0, 10, len(whole) // 2, len(whole) - 1):
+        (tmp_path / "analysis.h5").write_bytes(whole[:size])
+        with pytest.raises(carom.SceneError, match="analysis.h5: cannot be read: .*; expected analysis.h5 of a run$"):
+            damaged.analysis
+
+
 def test_every_call_has_types():
     calls = {name: getattr(carom, name) for name in carom.__all__}
     for name, thing in list(calls.items()):
