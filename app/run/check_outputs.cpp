@@ -40,9 +40,9 @@ constexpr double slow_frame = 1.0;  // seconds, ffmpeg's start included
 constexpr std::size_t most_sampled = 2'000'000;
 
 // Where nothing can be written: bytes of a disk in a frame of trajectory.xyz, with all digits, and of trajectory.h5,
-// packed; of a frame in series.csv and in a movie.
-constexpr double xyz_bytes = 134.0, xyz_spin_bytes = 21.0, h5md_bytes = 32.0, h5md_single_bytes = 15.0,
-                 row_bytes = 200.0, movie_bytes = 2e4;
+// packed, in double and single precision; of a frame in series.csv and in a movie.
+constexpr double xyz_bytes = 134.0, xyz_spin_bytes = 21.0, xyz_single_bytes = 99.0, xyz_single_spin_bytes = 12.0,
+                 h5md_bytes = 32.0, h5md_single_bytes = 15.0, row_bytes = 200.0, movie_bytes = 2e4;
 // gnuplot's SVG: of the axes, and of a point.
 constexpr double plot_bytes = 16e3, point_bytes = 19.0;
 
@@ -239,7 +239,9 @@ void guess_files(const Scene& scene, double disks, OutputForesight& f) {
   const double shown = disks_shown(scene, disks) / static_cast<double>(plan.select.stride);
   const bool rough = scene.physics.surfaces.are_rough();
   if (plan.trajectory == TrajectoryFormat::xyz) {
-    f.files.emplace_back("trajectory.xyz", (xyz_bytes + (rough ? xyz_spin_bytes : 0.0)) * shown * frames);
+    const double spin = !rough ? 0.0 : plan.single_precision ? xyz_single_spin_bytes : xyz_spin_bytes;
+    const double each = (plan.single_precision ? xyz_single_bytes : xyz_bytes) + spin;
+    f.files.emplace_back("trajectory.xyz", each * shown * frames);
   }
   if (plan.trajectory == TrajectoryFormat::h5md) {
     const double each =

@@ -43,7 +43,7 @@ inline constexpr SceneKey keys[] = {
      choice,
      none,
      "\"double\"",
-     "Of positions and velocities in trajectory.h5.",
+     "Of positions, velocities and spins in the trajectory.",
      R"(precision = "single")",
      {},
      precision_names},

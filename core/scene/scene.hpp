@@ -192,7 +192,7 @@ struct OutputPlan {
   double every = 0.0;  // simulated time between frames; 0: only the first and the last
   TrajectoryFormat trajectory = TrajectoryFormat::none;
   Selection select;
-  bool single_precision = false;  // of positions and velocities in trajectory.h5
+  bool single_precision = false;  // of positions, velocities and spins in the trajectory
   bool series = false;
   std::vector<std::string> plots;  // "velocity", "energy"
   int dimensions = 2;              // components of positions and velocities in trajectory.h5: z is 0 in a third

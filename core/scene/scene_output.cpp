@@ -80,8 +80,9 @@ void check_selection(const Scene& scene, const PlaceOfKey& place) {
 
 bool read_single_precision(const TableReader& output) {
   const std::size_t precision = output.choice_or_initial("precision");
-  if (output.find("precision") != nullptr && output.text("trajectory").value_or("none") != "h5md") {
-    output.fail("precision", "is a matter of trajectory.h5", "expected trajectory = \"h5md\" as well");
+  if (output.find("precision") != nullptr && output.text("trajectory").value_or("none") == "none") {
+    output.fail("precision", "is given, but there is no trajectory",
+                "expected trajectory = \"xyz\" or \"h5md\" as well");
   }
   return precision == 1;
 }

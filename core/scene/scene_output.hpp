@@ -15,7 +15,7 @@ Selection read_selection(const TableReader& output, const Scene& scene);
 // Throws InputError where the rectangle selected has no room in common with the box, whose size is known here.
 void check_selection(const Scene& scene, const PlaceOfKey& place);
 
-// Whether "precision" is "single". Throws InputError unless it is absent or trajectory is "h5md".
+// Whether "precision" is "single". Throws InputError where it is given and there is no trajectory.
 bool read_single_precision(const TableReader& output);
 
 // Whether "dimensions" is 3. Throws InputError for anything but 2 and 3, and unless trajectory is "h5md".

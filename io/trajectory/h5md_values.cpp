@@ -1,16 +1,13 @@
 #include "io/trajectory/h5md_values.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <type_traits>
 
-#include "core/base/check.hpp"
 #include "core/scene/disk_group.hpp"
 #include "io/trajectory/disk_selection.hpp"
 #include "io/trajectory/h5md_layout.hpp"
+#include "io/trajectory/single_precision.hpp"
 
 namespace carom {
 
@@ -19,16 +16,8 @@ namespace {
 // A number of the file's precision.
 template <class T, class Value>
 T rounded(Value value) {
-  const T stored = static_cast<T>(value);
-  if constexpr (std::is_same_v<T, float>) {
-    if (std::isinf(stored)) {
-      throw RunError(
-          fmt::format("trajectory.h5 in single precision has no place for {:g}: it ends at 3.4e38; expected "
-                      "output.precision = \"double\"",
-                      value));
-    }
-  }
-  return stored;
+  if constexpr (std::is_same_v<T, float>) return single_of(value, "trajectory.h5");
+  return static_cast<T>(value);
 }
 
 // value(i) of the disk at each place; nothing where there is none.

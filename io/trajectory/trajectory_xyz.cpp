@@ -12,6 +12,7 @@
 
 #include "core/scene/disk_group.hpp"
 #include "io/trajectory/disk_selection.hpp"
+#include "io/trajectory/single_precision.hpp"
 
 namespace carom {
 
@@ -22,7 +23,7 @@ class LineText {
  public:
   std::string_view text() const { return {buffer_.data(), static_cast<std::size_t>(end_ - buffer_.data())}; }
   void add(std::string_view part) { end_ = std::copy(part.begin(), part.end(), end_); }
-  // A space and a double, with as many digits as it takes to come back as the same bits; or a whole number.
+  // A space and a number, with as many digits as it takes to come back as the same bits of its type.
   template <class Number>
   void add_number(Number value) {
     *end_++ = ' ';
@@ -97,6 +98,15 @@ FileMark XyzWriter::mark() {
 void XyzWriter::write_lines(const Disks& disks, const std::vector<std::size_t>& order, std::size_t begin,
                             std::size_t end, std::string& text) const {
   text.clear();
+  const auto in_single = [](double value) { return single_of(value, "trajectory.xyz"); };
+  const auto in_double = [](double value) { return value; };
+  if (plan_.single) return add_lines(disks, order, begin, end, in_single, text);
+  add_lines(disks, order, begin, end, in_double, text);
+}
+
+template <class Precision>
+void XyzWriter::add_lines(const Disks& disks, const std::vector<std::size_t>& order, std::size_t begin, std::size_t end,
+                          Precision in_precision, std::string& text) const {
   RepeatedNumber radius, mass;
   for (std::size_t k = begin; k < end; ++k) {
     const std::size_t i = order[k];
@@ -104,11 +114,11 @@ void XyzWriter::write_lines(const Disks& disks, const std::vector<std::size_t>& 
     const DiskId id = disks.id[i];
     LineText line;
     line.add("X");
-    line.add_number(disks.x[i]);
-    line.add_number(disks.y[i]);
+    line.add_number(in_precision(disks.x[i]));
+    line.add_number(in_precision(disks.y[i]));
     line.add(" 0");
-    line.add_number(disks.vx[i]);
-    line.add_number(disks.vy[i]);
+    line.add_number(in_precision(disks.vx[i]));
+    line.add_number(in_precision(disks.vy[i]));
     line.add(" 0");
     radius.add_to(line, disks.radius_of(i));
     mass.add_to(line, disks.mass_of(i));
@@ -119,7 +129,7 @@ void XyzWriter::write_lines(const Disks& disks, const std::vector<std::size_t>& 
       line.add_number(rounds_of(plan_.rounds->y, id));
       line.add(" 0");
     }
-    if (plan_.spins) line.add_number(disks.spin_of(i));
+    if (plan_.spins) line.add_number(in_precision(disks.spin_of(i)));
     line.add("\n");
     text += line.text();
   }

@@ -1,4 +1,4 @@
-// Trajectories as extended XYZ: text that OVITO, ASE and VMD read, and that loses no bit.
+// Trajectories as extended XYZ: text that OVITO, ASE and VMD read, and that loses no bit in double precision.
 #pragma once
 
 #include <cstddef>
@@ -31,7 +31,8 @@ struct XyzPlan {
   // How often each disk has gone round the periodic sides: a column map_shift:I:3 is added, which OVITO takes for the
   // periodic image. Kept by the caller; null: not known.
   const DisplacementTally* rounds = nullptr;
-  bool spins = false;  // disks are rough: a column spin:R:1 is added, the angular velocity
+  bool spins = false;   // disks are rough: a column spin:R:1 is added, the angular velocity
+  bool single = false;  // positions, velocities and spins in single precision
 };
 
 class XyzWriter {
@@ -43,7 +44,8 @@ class XyzWriter {
   // shorter.
   XyzWriter(const std::string& path, XyzPlan plan, const FileMark& from);
 
-  // One frame: the selected disks in order of id, numbers with as many digits as it takes to read them back.
+  // One frame: the selected disks in order of id, numbers with as many digits as it takes to read them back. Throws
+  // RunError for a number that single precision does not reach.
   void write(const DisksInPieces& disks, const BlockRunner& run = run_in_order);
   void write(const Disks& disks, double time, const BlockRunner& run = run_in_order) {
     write(WholeDisks(disks, time), run);
@@ -58,6 +60,9 @@ class XyzWriter {
   Count count_of(const DisksInPieces& disks) const;  // how many are selected
   void write_lines(const Disks& disks, const std::vector<std::size_t>& order, std::size_t begin, std::size_t end,
                    std::string& text) const;
+  template <class Precision>
+  void add_lines(const Disks& disks, const std::vector<std::size_t>& order, std::size_t begin, std::size_t end,
+                 Precision in_precision, std::string& text) const;
   void write_blocks(const Disks& disks, const std::vector<std::size_t>& order, const BlockRunner& run);
 
   OutputFile file_;

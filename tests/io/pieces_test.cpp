@@ -53,6 +53,7 @@ std::string files_of(const test::TestFolder& folder, const Scene& scene, std::ui
   plan.rounds = &rounds;
   plan.group_ends = ends_of_groups(scene);
   plan.spins = scene.physics.surfaces.are_rough();
+  plan.single = scene.output.single_precision;
   {
     H5mdWriter h5md(path("trajectory.h5"), scene, &rounds);
     XyzWriter xyz(path("trajectory.xyz"), plan);

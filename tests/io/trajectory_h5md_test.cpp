@@ -141,6 +141,27 @@ TEST(TrajectoryH5md, SinglePrecisionIsTheNearestFloat) {
   EXPECT_FALSE(rounded.read(b));
 }
 
+// As few digits as give the float back.
+TEST(TrajectoryXyzSingle, IsTheNearestFloat) {
+  const TestFolder folder("xyz_single");
+  run_scene(folder, "all");
+  run_scene(folder, "single", "--set output.precision=single");
+  const std::string path = (folder.path() / "single/trajectory.xyz").string();
+  XyzReader all((folder.path() / "all/trajectory.xyz").string()), rounded(path);
+  TrajectoryFrame a, b;
+  while (all.read(a)) {
+    ASSERT_TRUE(rounded.read(b));
+    ASSERT_EQ(a.disks.id, b.disks.id);
+    for (std::size_t i = 0; i < a.disks.size(); ++i) {
+      EXPECT_EQ(static_cast<float>(a.disks.x[i]), static_cast<float>(b.disks.x[i]));
+      EXPECT_EQ(static_cast<float>(a.disks.vy[i]), static_cast<float>(b.disks.vy[i]));
+      EXPECT_EQ(a.disks.radius[i], b.disks.radius[i]);
+    }
+  }
+  EXPECT_FALSE(rounded.read(b));
+  EXPECT_THAT(test::text_of(path), testing::ContainsRegex("\nX [0-9]+\\.[0-9]{1,8} [0-9.]{1,10} 0 -?[0-9]\\.[0-9]+ "));
+}
+
 // It was written as an infinite one, without a word.
 TEST(TrajectoryH5md, SinglePrecisionHasNoPlaceForTheFastest) {
   const TestFolder folder("h5md_fast");
@@ -164,6 +185,8 @@ precision = "single"
   EXPECT_EQ(status, 1);
   EXPECT_THAT(text, HasSubstr("trajectory.h5 in single precision has no place for -1e+39: it ends at 3.4e38; expected "
                               "output.precision = \"double\"\n"));
+  EXPECT_THAT(shell(command + " --set output.trajectory=xyz").second,
+              HasSubstr("error: trajectory.xyz in single precision has no place for -1e+39: it ends at 3.4e38"));
   EXPECT_EQ(shell(command + " --set output.precision=double").first, 0);
 }
 
@@ -177,8 +200,8 @@ TEST(TrajectoryH5md, KeysAreChecked) {
               HasSubstr("expected \"every 100th\""));
   EXPECT_THAT(test::complaint(start + "trajectory = \"xyz\"\nselect = [1, 2, 3]"), HasSubstr("has 3 numbers"));
   EXPECT_THAT(test::complaint(start + "trajectory = \"xyz\"\nselect = [3, 1, 1, 2]"), HasSubstr("not in order"));
-  EXPECT_THAT(test::complaint(start + "trajectory = \"xyz\"\nprecision = \"single\""),
-              HasSubstr("expected trajectory = \"h5md\""));
+  EXPECT_THAT(test::complaint(start + "precision = \"single\""),
+              HasSubstr("output.precision: is given, but there is no trajectory; expected trajectory = \"xyz\" or"));
   EXPECT_THAT(test::complaint(start + "trajectory = \"h5md\"\nprecision = \"half\""), HasSubstr("double, single"));
 }
 
