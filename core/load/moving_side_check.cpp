@@ -6,6 +6,7 @@
 #include <array>
 
 #include "core/base/input_message.hpp"
+#include "core/disks/place_slack.hpp"
 #include "core/scene/scene_names.hpp"
 #include "core/scene/size_law.hpp"
 #include "core/scene/swept_room.hpp"
@@ -21,7 +22,7 @@ std::string_view name_of(Side side) {
 // A wall that moves stays in the box until the run's end, but goes round where that is periodic.
 void check_wall_stays(const Scene& scene, Vec2 low, Vec2 high, const std::string& where) {
   const Domain& box = scene.box;
-  const double slack = slack_of_sides(box, 0.0);
+  const double slack = place_slack(box, 0.0);
   const bool leaves_x = !box.periodic_x() && (low.x < -slack || high.x > box.width + slack);
   const bool leaves_y = !box.periodic_y() && (low.y < -slack || high.y > box.height + slack);
   if (!leaves_x && !leaves_y) return;
@@ -51,7 +52,7 @@ bool stay_apart(const Scene& scene, Side side, const InnerWall& wall, Vec2 low, 
     const Vec2 shift = wall.motion.at({t, t}).shift;
     const double limit =
         inset_to_reach(scene.box, side, {low.x + shift.x, low.y + shift.y}, {high.x + shift.x, high.y + shift.y});
-    if (motion.at(t).inset > limit + slack_of_sides(scene.box, 0.0)) return false;
+    if (motion.at(t).inset > limit + place_slack(scene.box, 0.0)) return false;
   }
   return true;
 }
@@ -73,7 +74,7 @@ void check_wall(const Scene& scene, const InnerWall& wall, const std::string& wh
   }
   Sweep sweep;
   for (const Side side : all_sides) {
-    const Sweep next = sweep_of(scene.box, side, low, high, slack_of_sides(scene.box, 0.0), scene.run.t_end);
+    const Sweep next = sweep_of(scene.box, side, low, high, place_slack(scene.box, 0.0), scene.run.t_end);
     if (next.time < sweep.time && !stay_apart(scene, side, wall, first_low, first_high)) sweep = next;
   }
   if (!sweep.happens()) return;
@@ -94,7 +95,7 @@ void check_source(const Scene& scene, const Source& source, double radius, const
   if (source.side) return;
   const Vec2 low{source.region_high.x - radius, source.region_high.y - radius};
   const Vec2 high{source.region_low.x + radius, source.region_low.y + radius};
-  const Sweep sweep = first_sweep(scene.box, low, high, slack_of_sides(scene.box, radius), scene.run.t_end);
+  const Sweep sweep = first_sweep(scene.box, low, high, place_slack(scene.box, radius), scene.run.t_end);
   if (!sweep.happens()) return;
   fail_input(where,
              fmt::format("the {} side leaves no place in it for the centre of a disk of radius {} from t = {:g}",

@@ -7,6 +7,7 @@
 #include "core/base/input_message.hpp"
 #include "core/base/machine_memory.hpp"
 #include "core/base/short_number.hpp"
+#include "core/disks/place_slack.hpp"
 #include "core/load/brownian_warnings.hpp"
 #include "core/load/memory_need.hpp"
 #include "core/load/press_warning.hpp"
@@ -19,7 +20,6 @@
 #include "core/scene/scene_roughness.hpp"
 #include "core/scene/scene_thermostat.hpp"
 #include "core/scene/size_law.hpp"
-#include "core/scene/swept_room.hpp"
 #include "core/step/window_plan.hpp"
 
 namespace carom {
@@ -248,7 +248,7 @@ void check_start_region(const StartRegion& region, const Domain& box, double rad
       "expected [x0, y0, x1, y1] with x0 < x1, y0 < y1, or { circle = [x, y, r] }, inside the box";
   if (!(low.x < high.x && low.y < high.y)) fail_input(where, "its corners are not in order", expected);
   // The edge of a circle is a sum, which rounding may put beyond a side that it touches.
-  const double slack = region.circle ? slack_of_sides(box, region.radius) : 0.0;
+  const double slack = region.circle ? place_slack(box, region.radius) : 0.0;
   if (!(low.x >= -slack && low.y >= -slack && high.x <= box.width + slack && high.y <= box.height + slack)) {
     fail_input(where, fmt::format("reaches out of the box of {} x {}", box.width, box.height), expected);
   }

@@ -6,6 +6,7 @@
 
 #include "core/disks/disk_view.hpp"
 #include "core/disks/domain.hpp"
+#include "core/disks/place_slack.hpp"
 #include "core/disks/sink_counts.hpp"
 #include "core/physics/boundary.hpp"
 #include "core/physics/contact_event.hpp"
@@ -111,7 +112,7 @@ double depth_of_opening(const View& d, const Domain& box, std::uint32_t i) {
     if ((*box.obstacles)[k].kind == ObstacleKind::sink) depth = std::max(depth, gap.beyond);
   });
   if (depth < 0.0) return depth;
-  return depth + 1e-12 * d.radius(i) + 0x1p-50 * std::max(box.width, box.height);
+  return depth + place_slack(box, d.radius(i));
 }
 
 // Calls found(event) for each wall side and obstacle that disk i reaches beyond or touches, but for those where an

@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "core/disks/obstacle_cells.hpp"
+#include "core/disks/place_slack.hpp"
 #include "core/physics/exact_path.hpp"
 #include "core/physics/obstacle_contact.hpp"
 #include "core/physics/swinging_wall.hpp"
@@ -215,13 +216,6 @@ inline double time_to_obstacle(const Obstacle& o, Vec2 apart, const PathSegment&
   return time_to_obstacle(o, from_wall, seen, radius, felt, span);
 }
 
-// A sink that lies along a wall or a side is an opening in it: what touches both at one moment is taken. Rounding may
-// put either first, so that a sink takes disks from this far away: 1e-12 of the radius, and four units in the last
-// place of the box; length.
-inline double grip_of_sink(double radius, const Domain& box) {
-  return 1e-12 * radius + 0x1p-50 * std::fmax(box.width, box.height);
-}
-
 // Does the rectangle around an obstacle's image overlap this one?
 inline bool may_reach(const Obstacle& o, Vec2 shift, Vec2 low, Vec2 high) {
   const double x = o.x + shift.x;
@@ -250,7 +244,9 @@ ObstacleContact first_obstacle_contact(const PathSegment& p, double radius, cons
                                        double end, double margin, NearStart&& near_start) {
   const ObstacleCells& obstacles = *box.obstacles;
   const double span = span_until(p.start, end);
-  const double grip = obstacles.has_sinks() ? grip_of_sink(radius, box) : 0.0;
+  // A sink that lies along a wall or a side is an opening in it: what touches both at one moment is taken. Rounding may
+  // put either first, so that a sink takes disks from this far away.
+  const double grip = obstacles.has_sinks() ? place_slack(box, radius) : 0.0;
   const double cell = obstacles.cell();
   const double reach = radius + 1e-9 * (radius + cell) + std::max(grip, margin);
   // Shorter ways than this share of a cell are not worth asking for.

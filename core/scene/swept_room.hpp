@@ -44,13 +44,4 @@ inline Sweep first_sweep(const Domain& box, Vec2 low, Vec2 high, double slack, d
   return first;
 }
 
-// Rounding of decimals may put a disk that touches a side this far beyond it: 1e-12 of its radius, and four units in
-// the last place of the box, whose longer side this is. Lengths.
-inline double side_slack(double radius, double length) {
-  return 1e-12 * radius + 0x1p-50 * length;
-}
-inline double slack_of_sides(const Domain& box, double radius) {
-  return side_slack(radius, std::fmax(box.width, box.height));
-}
-
 }  // namespace carom

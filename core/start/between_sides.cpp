@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/input_message.hpp"
+#include "core/disks/place_slack.hpp"
 #include "core/scene/scene_names.hpp"
 #include "core/scene/swept_room.hpp"
 #include "core/start/placement.hpp"
@@ -18,7 +19,7 @@ namespace {
 void check_clear_of_sides(const Scene& scene, const Obstacle& o) {
   const Vec2 low{o.x - o.radius, o.y - o.radius};
   const Vec2 high{o.x + o.radius, o.y + o.radius};
-  const Sweep sweep = first_sweep(scene.box, low, high, slack_of_sides(scene.box, o.radius), scene.run.t_end);
+  const Sweep sweep = first_sweep(scene.box, low, high, place_slack(scene.box, o.radius), scene.run.t_end);
   if (!sweep.happens()) return;
   fail_input(place_in_group(scene, group_of(scene, o.id), "positions"),
              fmt::format("the {} side runs into {}, of radius {} at ({:g}, {:g}), at t = {:g}",
@@ -49,7 +50,7 @@ Scene inside_moving_sides(const Scene& scene) {
     region.low = moved(region.low);
     region.high = moved(region.high);
     region.centre = moved(region.centre);
-    const double slack = slack_of_sides(scene.box, 0.0);
+    const double slack = place_slack(scene.box, 0.0);
     const bool inside = region.low.x >= -slack && region.low.y >= -slack && region.high.x <= inner.box.width + slack &&
                         region.high.y <= inner.box.height + slack;
     if (inside) continue;

@@ -10,9 +10,9 @@
 #include "core/base/input_message.hpp"
 #include "core/base/short_number.hpp"
 #include "core/disks/obstacle_cells.hpp"
+#include "core/disks/place_slack.hpp"
 #include "core/physics/obstacle_contact.hpp"
 #include "core/scene/size_law.hpp"
-#include "core/scene/swept_room.hpp"
 #include "core/start/between_sides.hpp"
 #include "core/start/initial_velocities.hpp"
 #include "core/start/lattice_places.hpp"
@@ -81,7 +81,7 @@ double checked_coordinate(double c, double length, bool periodic, double radius,
     inside = inside && c >= 0.0 && c <= length;
     return c == length ? 0.0 : c;
   }
-  const double slack = side_slack(radius, length);
+  const double slack = place_slack(radius, length);
   inside = inside && c >= radius - slack && c <= length - radius + slack;
   return c;
 }
@@ -164,7 +164,7 @@ void check_clear_of_walls(const Scene& scene, const Domain& box, const Disks& di
   if (box.obstacles == nullptr) return;
   const double r = disks.radius_of(i);
   for_each_solid_touched(box, disks.x[i], disks.y[i], r, [&](std::uint32_t k, const ObstacleGap& gap) {
-    if (!(gap.beyond > slack_of_sides(box, r))) return;
+    if (!(gap.beyond > place_slack(box, r))) return;
     fail_input(place_in_group(scene, group_of(scene, i), "positions"),
                fmt::format("disk {} overlaps the {} by {:.6g}", i, name_of((*box.obstacles)[k]), gap.beyond),
                "expected disks clear of walls");

@@ -8,10 +8,10 @@
 
 #include "core/base/check.hpp"
 #include "core/base/random.hpp"
+#include "core/disks/place_slack.hpp"
 #include "core/physics/boundary.hpp"
 #include "core/physics/disk_pair.hpp"
 #include "core/physics/obstacle_contact.hpp"
-#include "core/physics/obstacle_path.hpp"
 #include "core/physics/roughness.hpp"
 #include "core/scene/scene_ranges.hpp"
 #include "core/scene/size_law.hpp"
@@ -103,7 +103,7 @@ bool inside(const Domain& box, const Disk& d) {
   const auto touching = [&](Side side) { return touching_coordinate(side, d.radius, box); };
   const bool x = box.periodic_x() || (d.x >= touching(Side::left) && d.x <= touching(Side::right));
   const bool y = box.periodic_y() || (d.y >= touching(Side::bottom) && d.y <= touching(Side::top));
-  const double held = (1.0 + clear_of_sink) * d.radius + grip_of_sink(d.radius, box);
+  const double held = (1.0 + clear_of_sink) * d.radius + place_slack(box, d.radius);
   return x && y && !touches_obstacle(box, d.x, d.y, d.radius) && !touches_inner_sink(box, d.x, d.y, held);
 }
 

@@ -9,8 +9,8 @@
 #include "core/base/check.hpp"
 #include "core/disks/cell_index.hpp"
 #include "core/disks/obstacle_cells.hpp"
+#include "core/disks/place_slack.hpp"
 #include "core/physics/obstacle_contact.hpp"
-#include "core/scene/swept_room.hpp"
 #include "core/start/between_sides.hpp"
 #include "core/start/placement.hpp"
 #include "core/start/placement_grid.hpp"
@@ -198,7 +198,7 @@ class Maker {
     bool deep = false;
     const double r = d.radius_of(i);
     for_each_solid_touched(box, d.x[i], d.y[i], r, [&](std::uint32_t, const ObstacleGap& gap) {
-      deep = deep || gap.beyond > slack_of_sides(box, r);
+      deep = deep || gap.beyond > place_slack(box, r);
     });
     return deep;
   }
