@@ -19,7 +19,7 @@ class Trajectory:
     """The frames of trajectory.xyz or trajectory.h5, read one by one as they are asked for.
 
     path: the file, or the folder of a run, also of one that goes on: each use sees the frames that are there by then. len()
-    and [k] read up to there; [1:3] is a list of frames. Raises SceneError where there is none, or it is damaged.
+    and [k] pass over the frames up to there; [1:3] is a list of frames. Raises SceneError where there is none, or it is damaged.
     """
 
     def __init__(self, path: _arguments.AnyPath):
@@ -49,7 +49,10 @@ class Trajectory:
         file = os.stat(self.file)
         as_now = (file.st_ino, file.st_size, file.st_mtime_ns)
         if self._counted[0] != as_now:
-            self._counted = (as_now, sum(1 for _ in self))
+            reader, frames = _carom.open_trajectory(self.file), 0
+            while reader.skip():
+                frames += 1
+            self._counted = (as_now, frames)
         return self._counted[1]
 
     @overload
