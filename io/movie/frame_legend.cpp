@@ -44,10 +44,10 @@ void shorten(std::string& text) {
   text.pop_back();
 }
 
-// Cuts text at a character boundary until it is at most `room` wide at this size. Half a character, and U+FFFE and
-// U+FFFF, would be an error to Cairo, which draws nothing more.
+// Cuts text at a character boundary until it is at most `room` wide at this size. Half a character would be an error to
+// Cairo, which draws nothing more.
 std::string fitting(cairo_t* c, std::string text, double size, double room, bool bold = false) {
-  text = without_noncharacters(text);
+  text = shown_text(text);
   // No picture has room for more; measuring takes time for each letter.
   constexpr std::size_t most_bytes = 2000;
   while (text.size() > most_bytes) shorten(text);

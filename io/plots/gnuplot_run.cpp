@@ -45,7 +45,7 @@ bool is_whole(const std::string& picture) {
 
 // Text as XML may have it: gnuplot writes what is no character, and the end of CDATA, as they are.
 std::string text_of_xml(std::string text) {
-  text = without_noncharacters(text);
+  text = shown_text(text);
   for (std::size_t at = 0; (at = text.find("]]>", at)) != std::string::npos; at += 3) text.insert(at + 2, 1, ' ');
   return text;
 }
