@@ -44,6 +44,9 @@ constexpr double smallest_unit = 0.6;
 // A few disks far smaller than a pixel would be invisible in a large box; they are drawn as large as this.
 constexpr std::size_t few_disks = 5000;
 constexpr double smallest_of_few = 1.6;
+// More than any picture has: a trajectory of others may name any radius, and Cairo would cut the arc of one of 1e300
+// into as many pieces as it needs, for ever.
+constexpr double largest_drawn = 1e6;
 
 // For drawing: what is drawn are disks.
 Disks as_disks(const std::vector<Obstacle>& obstacles) {
@@ -166,7 +169,7 @@ void FramePainter::for_each_disk(const DisksInPieces& disks, const std::vector<D
   disks.visit([&](const Disks& d) {
     for (const std::size_t i : by_id(d)) {
       const Colour colour = colour_of(d, i, group);
-      const double pixels = std::max(d.radius_of(i) * layout_.scale, smallest);
+      const double pixels = std::clamp(d.radius_of(i) * layout_.scale, smallest, largest_drawn);
       for_each_image(d, i, box, [&](double x, double y) {
         draw(layout_.left + x * layout_.scale, layout_.bottom - y * layout_.scale, pixels, colour);
       });

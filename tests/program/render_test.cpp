@@ -68,6 +68,27 @@ TEST_F(Render, OddTitlesLeaveThePictureWhole) {
   }
 }
 
+// A trajectory by itself is called by its name, which need not be UTF-8: the picture had neither title nor colours.
+TEST_F(Render, AFileOfAnyNameHasTheWholePicture) {
+  run_small("--set output.movie=false");
+  for (const char* const name : {"b\344d.xyz", "b\357\277\275d.xyz"}) {
+    fs::copy_file(at("out/trajectory.xyz"), at(name));
+  }
+  const Outcome o = shell("$C render b\344d.xyz -o a.svg && $C render b\357\277\275d.xyz -o b.svg");
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(text_of(at("a.svg")), text_of(at("b.svg")));
+}
+
+// A disk that covers the box many times over took for ever.
+TEST_F(Render, ADiskFarLargerThanTheBoxIsDrawn) {
+  write("one.xyz",
+        "1\nLattice=\"20 0 0 0 12 0 0 0 1\" pbc=\"F F F\" "
+        "Properties=species:S:1:pos:R:3:velo:R:3:radius:R:1:mass:R:1:id:I:1 "
+        "Time=0.5\nX 6.25 9.5 0 -2 0.5 0 1e300 1 0\n");
+  const Outcome o = shell("timeout 60 $C render one.xyz -o one.svg && timeout 60 $C render one.xyz -o one.png");
+  EXPECT_EQ(o.status, 0) << o.err;
+}
+
 TEST_F(LongRender, TheScenesMovieLooksAsItSays) {
   run_small();
   EXPECT_EQ(probe("out/movie.mp4"), "h264,640,400,5/1,5\n");
