@@ -1,7 +1,9 @@
+#include <fcntl.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cstdio>
 #include <filesystem>
 #include <optional>
 
@@ -149,6 +151,21 @@ void render_picture(const Recording& recording, const RenderOptions& options, co
   rename_file(made, target.file);
 }
 
+// The new frames take the place of earlier ones at once, so that whatever happens one or the other are there. Where the
+// file system cannot exchange two folders, the earlier ones step aside, and come back if the new ones find no place.
+void put_frames(const fs::path& made, const fs::path& place, const fs::path& aside) {
+  if (!fs::exists(place)) return rename_file(made, place);
+  if (renameat2(AT_FDCWD, made.c_str(), AT_FDCWD, place.c_str(), RENAME_EXCHANGE) == 0) return;
+  rename_file(place, aside);
+  try {
+    rename_file(made, place);
+  } catch (const RunError&) {
+    std::error_code ignored;
+    fs::rename(aside, place, ignored);
+    throw;
+  }
+}
+
 void render_movie(const Recording& recording, const RenderOptions& options, const Target& target) {
   constexpr double fastest_gif = 50.0;  // delays are whole hundredths of a second, and viewers make two of one
   const Survey survey = survey_of(recording);
@@ -167,9 +184,7 @@ void render_movie(const Recording& recording, const RenderOptions& options, cons
   for (Count k = 0; k < survey.frames && reader->read(frame); ++k) movie.add(frame.disks, frame.time, frame.group);
   movie.finish();
   if (!target.single_frames) return rename_file(work.path / movie_name(*target.movie), target.file);
-  // A folder takes no other's place but that of an empty one: earlier frames step aside until the new ones are there.
-  if (fs::exists(target.made())) rename_file(target.made(), work.path / "earlier");
-  rename_file(work.path / "frames", target.made());
+  put_frames(work.path / "frames", target.made(), work.path / "earlier");
 }
 
 }  // namespace
