@@ -27,7 +27,8 @@ std::string find_program(const std::string& name) {
     const std::string candidate = fmt::format("{}/{}", rest.substr(0, end), name);
     std::error_code error;
     const bool is_file = std::filesystem::is_regular_file(candidate, error);  // folders can be "executed", too
-    if (is_file && access(candidate.c_str(), X_OK) == 0) return candidate;
+    // Where PATH names a folder by its way from here, the child, which starts in another one, would not find it.
+    if (is_file && access(candidate.c_str(), X_OK) == 0) return std::filesystem::absolute(candidate).string();
     rest = end == std::string_view::npos ? std::string_view{} : rest.substr(end + 1);
   }
   return {};

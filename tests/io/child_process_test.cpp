@@ -60,6 +60,16 @@ TEST_F(Child, TheFirstThatCanBeRunIsFound) {
   EXPECT_EQ(find_program("another"), "");
 }
 
+// The child starts in another folder than the one that a relative entry of PATH is meant from.
+TEST_F(Child, OneInARelativeFolderOfThePathIsStartedFromAnywhere) {
+  make_program("bin/tool");
+  const SearchPath path(fs::relative(at("bin")).string());
+  fs::create_directories(at("elsewhere"));
+  const std::string tool = find_program("tool");
+  EXPECT_EQ(fs::canonical(tool), fs::canonical(at("bin/tool")));
+  EXPECT_EQ(ChildProcess({tool}, at("elsewhere"), at("log")).wait(), 0);
+}
+
 TEST_F(Child, IsFedAndItsEndIsTold) {
   ChildProcess counting = shell("wc -c > counted; pwd; exit 7");
   const std::string text(1'000'000, 'x');
