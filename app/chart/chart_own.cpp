@@ -126,7 +126,9 @@ void plan_flight(const Scene& scene, const Trial& trial, ChartScene& chart) {
                        !walls_rub(scene) && !scene.box.has_thermal_side() && !scene.box.inner_walls_move && !kicked;
   chart.keeps_energy = elastic && !falls_for_ever(scene);
   chart.keeps_momentum = !walls && !scene.physics.gravity.acts() && !kicked;
-  chart.figure = !elastic && chart.keeps_momentum ? Figure::cooling : Figure::pressure;
+  // Haff's law is of a gas that nothing heats, which the flow of a sheared box does.
+  const bool cools = !elastic && chart.keeps_momentum && !scene.box.shear.acts();
+  chart.figure = cools ? Figure::cooling : Figure::pressure;
 }
 
 }  // namespace
@@ -142,7 +144,8 @@ ChartScene own_scene(const Scene& scene) {
   ChartScene chart;
   std::string stem = scene.file.substr(scene.file.find_last_of('/') + 1);
   stem = stem.substr(0, stem.find_last_of('.'));
-  std::replace(stem.begin(), stem.end(), ',', '_');  // it names rows of chart.csv
+  const auto parts_cells = [](char c) { return c == ',' || c == '"' || static_cast<unsigned char>(c) < ' '; };
+  std::replace_if(stem.begin(), stem.end(), parts_cells, '_');  // it names rows of chart.csv
   chart.name = stem;
   chart.title = scene.title.empty() ? stem : scene.title;
   chart.text = resolved_toml(scene);

@@ -71,8 +71,8 @@ struct ChartResult {
 struct Effort {
   std::string name;
   std::vector<int> powers;
-  std::uint64_t most_seeds = 0;   // of the long steps
-  std::uint64_t least_seeds = 0;  // of the shortest: each power beyond the second halves them
+  std::uint64_t most_seeds = 0;   // of the long steps, up to power 4: each one beyond halves them
+  std::uint64_t least_seeds = 0;  // of the shortest
   std::vector<std::size_t> crowds;
   double scale = 1.0;  // of flights and lengths; below 1 for tests
 };

@@ -178,7 +178,11 @@ int command_chart(const ChartOptions& options) {
   progress.clear();
   fs::create_directories(folder);
   replace_file(folder / "chart.csv", chart::csv_of(result));
-  replace_file(folder / "chart.json", json_of(result, effort, threads, seconds_since(start)).dump(2) + "\n");
+  // What of a scene's file name is no UTF-8 is replaced.
+  replace_file(
+      folder / "chart.json",
+      json_of(result, effort, threads, seconds_since(start)).dump(2, ' ', false, Json::error_handler_t::replace) +
+          "\n");
   const bool drawn =
       own ? draw(own_figure(result), folder, "chart")
           : draw(main_figure(result), folder, "chart") && draw(whole_figure(result), folder, "chart_all");

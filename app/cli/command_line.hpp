@@ -97,7 +97,7 @@ struct SweepOptions {
 
 struct ChartOptions {
   std::optional<std::string> folder;  // -o
-  std::string scene;                  // of the user's own; empty: the chart's seven
+  std::string scene;                  // of the user's own; empty: those built in
   SceneChanges changes;               // of that
   bool quick = false;                 // fewer points, within a minute
   bool tiny = false;                  // for tests: numbers of no use, within seconds

@@ -58,6 +58,28 @@ TEST_F(ChartOwn, HasAllMethodsTheOwnStepAndATable) {
   expect_error("$C chart --tiny --scene my.gas.toml", 2, "chart.svg: exists already");
 }
 
+// After all runs it broke off with an error of the library that writes JSON, and had no pictures.
+TEST_F(ChartOwn, ASceneOfAnyNameHasItsChart) {
+  write("\"b\344d\".toml", gas);
+  const Outcome o = shell("$C chart --tiny --scene '\"b\344d\".toml' -o odd");
+  ASSERT_EQ(o.status, 0) << o.err;
+  EXPECT_THAT(files_in("odd"), ElementsAre("chart.csv", "chart.json", "chart.png", "chart.svg"));
+  EXPECT_EQ(Json::parse(text_of(at("odd/chart.json")))["scenes"][0]["scene"], "_b\357\277\275d_");
+  EXPECT_THAT(text_of(at("odd/chart.csv")), HasSubstr("\n_b\344d_,exact,0,"));
+}
+
+// A flow heats what collisions cool: there is no cooling rate to be wrong in.
+TEST_F(ChartOwn, ADissipativeShearFlowHasAPressure) {
+  const std::string periodic = " --set 'box.bottom=\"periodic\"' --set 'box.top=\"periodic\"'";
+  const std::string words = "chart --tiny --scene my.gas.toml --set physics.restitution=0.9" + periodic;
+  const Outcome cooling = carom(words + " -o cooling");
+  ASSERT_EQ(cooling.status, 0) << cooling.err;
+  EXPECT_THAT(cooling.out, HasSubstr("collision rate and cooling to"));
+  const Outcome sheared = carom(words + " --set box.shear_rate=1.0 -o sheared");
+  ASSERT_EQ(sheared.status, 0) << sheared.err;
+  EXPECT_THAT(sheared.out, HasSubstr("collision rate and pressure to"));
+}
+
 // Paths are compared until a disk has collided twice in the mean, rates taken until 25 times.
 TEST_F(ChartOwn, TimesAreThoseOfSoManyCollisions) {
   const Outcome o = carom("chart --tiny --scene my.gas.toml --t-end 30 -o long");
