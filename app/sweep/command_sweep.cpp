@@ -332,10 +332,14 @@ class Sweep {
 // One line a run that is left, for GNU parallel; afterwards `carom sweep` with the same arguments has only the table to
 // write.
 std::string parallel_script(const Sweep& sweep) {
-  std::string text = "#!/bin/sh\n# Runs what is left of the sweep with GNU parallel, which must be installed.\n";
-  text += "parallel --will-cite \"$@\" <<'RUNS'\n";
+  std::string text =
+      "#!/bin/sh\n# Runs what is left of the sweep with GNU parallel, which must be installed: a process a core, each "
+      "on "
+      "one thread.\n# Its own options may follow, such as -j 4 for four runs at once; THREADS=2 before it gives each "
+      "process two.\n";
+  text += fmt::format("parallel --will-cite --jobs {}% \"$@\" <<'RUNS'\n", std::max(1, 100 / sweep.ranks()));
   for (const SweepRun& run : sweep.runs()) {
-    if (!sweep.finished(run)) text += sweep.shell_line(run) + "\n";
+    if (!sweep.finished(run)) text += sweep.shell_line(run) + " --threads \"${THREADS:-1}\"\n";
   }
   return text + "RUNS\n";
 }

@@ -258,9 +258,13 @@ TEST_F(SweepTest, AScriptForParallelRunsEachLine) {
   fs::permissions(folder_.path() / "bin/parallel", fs::perms::owner_all);
   const std::string words = "sweep gas.toml -o \"it's\" --over 'physics.gravity=[0.1,-0.5],0.25'";
   EXPECT_EQ(carom(words + " --emit parallel").first, 0);
+  EXPECT_THAT(read("it's/sweep.sh"), HasSubstr("--jobs 100% \"$@\""));
   const auto [status, text] = shell("PATH=$PWD/bin:$PATH sh \"it's/sweep.sh\"");
   EXPECT_EQ(status, 0) << text;
+  EXPECT_THAT(read("it's/runs/0001/summary.json"), HasSubstr("\"threads\": 1")) << "there is another on each core";
   EXPECT_THAT(carom(words).second, HasSubstr("0 of 2 runs are left"));
+  EXPECT_EQ(carom(words + " --seeds 2 --emit parallel --ranks 2").first, 0);
+  EXPECT_THAT(read("it's/sweep.sh"), HasSubstr("--jobs 50% \"$@\""));
   EXPECT_THAT(rows("it's/sweep.csv").at(1), testing::StartsWith("0001,\"[0.1,-0.5]\",3,20,"));
 }
 
