@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 
 import numpy as np
@@ -68,13 +69,23 @@ def write_gsd(path, frames, force) -> None:
     path, force = _arguments.path(path), _arguments.flag(force, "force")
     if os.path.isfile(path) and not force:
         raise SceneError(f"{path}: exists already; choose another file, or replace it with force=True")
-    with open(path, "ab"):  # says why it cannot be written; gsd would call it a bad file descriptor
+    if os.path.exists(path) and not os.path.isfile(path):  # a folder, and a device, which all programs share, stay
+        raise IsADirectoryError(errno.EISDIR, "is no file", path)
+    # What fails on the way leaves what was there before.
+    place = os.path.realpath(path)
+    beside = place + ".new"
+    with open(beside, "wb"):  # says why it cannot be written; gsd would call it a bad file descriptor
         pass
-    with gsd.hoomd.open(path, "wb") as file:
-        for number, frame in enumerate(frames):
-            snapshot = gsd_snapshot(frame)
-            snapshot.configuration.step = number
-            file.append(snapshot)
+    try:
+        with gsd.hoomd.open(beside, "wb") as file:
+            for number, frame in enumerate(frames):
+                snapshot = gsd_snapshot(frame)
+                snapshot.configuration.step = number
+                file.append(snapshot)
+        os.replace(beside, place)
+    except BaseException:
+        os.remove(beside)
+        raise
 
 
 def mdanalysis_universe(frames):

@@ -230,6 +230,27 @@ def test_gsd_replaces_no_file_unasked(result, tmp_path):
     assert other.read_bytes() != b"of another run"
 
 
+def test_gsd_leaves_no_part_of_a_file(tmp_path):
+    pytest.importorskip("gsd.hoomd")
+    from carom import _export
+
+    columns = {name: np.arange(3.0) for name in ("x", "y", "vx", "vy")}
+    columns |= {"radius": np.ones(3), "mass": np.ones(3), "id": np.arange(3)}
+
+    def frames():
+        yield carom.Frame(0.0, 10.0, 10.0, False, False, columns)
+        raise KeyError("on the way")
+
+    path = tmp_path / "run.gsd"
+    for before in (None, "of another run"):
+        if before:
+            path.write_text(before)
+        with pytest.raises(KeyError):
+            _export.write_gsd(path, frames(), True)
+        assert [file.name for file in tmp_path.iterdir()] == ([path.name] if before else [])
+        assert not before or path.read_text() == before
+
+
 def test_gsd_has_the_rounds_across_periodic_sides(result, tmp_path):
     """Unwrapped by them, as programs do for displacements, no disk jumps by half the box between two frames."""
     hoomd = pytest.importorskip("gsd.hoomd")
