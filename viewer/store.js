@@ -57,7 +57,7 @@ export class Store {
       head.radius === null ? take(Float64Array, head.disks) : new Float64Array(head.disks).fill(head.radius);
     this.mass = head.mass === null ? take(Float64Array, head.disks) : new Float64Array(head.disks).fill(head.mass);
     this.id = take(Uint32Array, head.disks);
-    this.group = head.grouped ? take(Uint32Array, head.disks) : new Uint32Array(head.disks);
+    this.group = head.grouped ? take(Uint32Array, head.disks) : new Uint32Array(head.disks).fill(head.group);
     this.largest = this.radius.reduce((a, b) => Math.max(a, b), 0);
   }
 
@@ -177,8 +177,8 @@ export class Store {
   }
 
   // The displacement of each disk of frame k to the next frame, x and y in turn; the mean velocity on the way is that
-  // over `over`. The last frame, and disks that are gone by the next (indices in `gone`), have the step before. In a sheared
-  // box it is that of the image whose disk is in frame k: the velocity that the disk has there.
+  // over `over`. The last frame, and disks that are gone by the next (indices in `gone`), have the velocity of the step
+  // before. In a sheared box it is that of the image whose disk is in frame k: the velocity that the disk has there.
   steps(k) {
     const frame = this.frame(k);
     const next = this.frame(k + 1);
@@ -187,7 +187,8 @@ export class Store {
     const gone = [];
     const offsetAhead = next ? this.offset(k + 1) : 0;
     const offsetBack = before ? this.offset(k - 1) : 0;
-    const over = next ? this.times[k + 1] - this.times[k] : before ? this.times[k] - this.times[k - 1] : 1;
+    const span = (f) => this.times[f + 1] - this.times[f];
+    const over = (next && span(k)) || (before && span(k - 1)) || 1;
     const same = (other, i) => (other.place[i] === frame.place[i] ? i : this.indexIn(other, frame.place[i]));
     for (let i = 0; i < frame.place.length; ++i) {
       let other = next;
@@ -198,11 +199,11 @@ export class Store {
         j = same(before, i);
       }
       if (j < 0) continue;
-      const sign = other === next ? 1 : -1;
+      const sign = other === next ? 1 : -over / (span(k - 1) || over);
       const offset = other === next ? offsetAhead : offsetBack;
       d[2 * i] = sign * this.step(0, frame, i, other, j, offset);
       d[2 * i + 1] = sign * this.step(1, frame, i, other, j, offset);
     }
-    return { d, gone, over: over > 0 ? over : 1 };
+    return { d, gone, over };
   }
 }

@@ -210,6 +210,25 @@ test("the trail of a disk that left through a sink ends where it was last", asyn
   await page.close();
 });
 
+test("a disk that is gone by the next frame has the speed of the step before, however long the next one is", async () => {
+  const scene = restScene()
+    .replace('left = "periodic"\nright = "periodic"', 'left = "sink"')
+    .replace("count = 4", "count = 1")
+    .replace(/t_end = .*/, "t_end = 1.25");
+  shop.run(
+    "shorter",
+    scene.replace(/positions = .*/, "positions = [[3.2, 6]]").replace(/velocities = .*/, "velocities = [[-2, 0]]"),
+  );
+  const { page } = await shop.show(shop.view("shorter").file, "#t=1");
+  await drawn(page, 2);
+  assert.deepEqual(await page.evaluate(() => [...window.carom.store.times]), [0, 0.5, 1, 1.25]);
+  assert.equal((await page.evaluate(() => window.carom.positions(3))).id.length, 0, "it has left");
+  await page.evaluate(() => window.carom.pickId(0));
+  const speed = Number(/speed([\d.]+)/.exec(await page.textContent("#facts"))[1]);
+  assert.ok(Math.abs(speed - 2) < 0.01, `${speed}`);
+  await page.close();
+});
+
 test("the coordination number counts neighbours across periodic sides", async () => {
   const scene = restScene()
     .replace("count = 4", "count = 3")
