@@ -116,21 +116,20 @@ class DiskBuffers {
     });
     return array;
   }
-  // Returns how many bytes that took: none where the card has these data already.
+  // Takes nothing where the card has these data already.
   fill(column, data) {
-    if (this.held[column] === data) return 0;
+    if (this.held[column] === data) return;
     this.held[column] = data;
     this.gl.bindBuffer(this.gl.ARRAY_BUFFER, this.buffers[column]);
     this.gl.bufferData(this.gl.ARRAY_BUFFER, data, this.gl.DYNAMIC_DRAW);
-    return data.byteLength;
   }
 }
 
 export class DiskRenderer {
-  constructor(canvas, axes, box, largest) {
+  constructor(canvas, axes, box) {
     const gl = canvas.getContext("webgl2", { antialias: false, premultipliedAlpha: true, alpha: false });
     if (!gl) throw new Error("This browser has no WebGL2, which draws the disks.");
-    Object.assign(this, { gl, canvas, axes, box, largest });
+    Object.assign(this, { gl, canvas, axes, box });
     this.disks = program(gl, diskShader, diskPaint(false));
     this.points = program(gl, pointShader, diskPaint(true));
     this.largestPoint = Math.min(64, gl.getParameter(gl.ALIASED_POINT_SIZE_RANGE)[1]);
@@ -140,7 +139,6 @@ export class DiskRenderer {
     // of a sheared box, less their displacement.
     this.images = [0, 1, -1].map((row) => ({ row, slot: new DiskBuffers(gl) }));
     this.colours = gl.createTexture();
-    this.uploaded = 0; // bytes for the last frame
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
   }
@@ -165,8 +163,7 @@ export class DiskRenderer {
     this.slots.delete(k);
     this.slots.set(k, slot);
     slot.count = frame.place.length;
-    const columns = [frame.x, frame.y, steps.d, radius, value];
-    this.uploaded = columns.reduce((sum, data, column) => sum + slot.fill(column, data), 0);
+    [frame.x, frame.y, steps.d, radius, value].forEach((data, column) => slot.fill(column, data));
   }
 
   // The images of disks that reach over a periodic side, as the other side shows them.
@@ -200,8 +197,10 @@ export class DiskRenderer {
     });
   }
 
+  // Buffers are of no frame then, and the next frames get them: those that are let go of stay on the card until the
+  // browser, to which they are a few bytes, collects them.
   forget() {
-    this.slots.clear();
+    this.slots = new Map([...this.slots.values()].map((slot, n) => [-2 - n, slot]));
   }
 
   use({ made, at }, look) {
@@ -243,7 +242,7 @@ export class DiskRenderer {
   // A point is dropped where its centre is out of view, so the view is wider by a point; see use().
   useDisks(look) {
     this.asPoints =
-      2 * (Math.max(look.least, this.largest * look.camera.scale * look.density) + 1) <= this.largestPoint;
+      2 * (Math.max(look.least, look.largest * look.camera.scale * look.density) + 1) <= this.largestPoint;
     return this.use(this.asPoints ? this.points : this.disks, look);
   }
 
@@ -255,8 +254,9 @@ export class DiskRenderer {
     else gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, slot.count);
   }
 
-  // look: camera, density (device pixels a page pixel), ground, ink, range, bySpeed, perTime, time, part (of the
-  // way to the next frame), images, arrows (times shown ahead, 0: none), trail (frames that are uploaded, oldest first).
+  // look: camera, density (device pixels a page pixel), largest (radius of all disks), ground, ink, range, bySpeed,
+  // perTime, time, part (of the way to the next frame), images, arrows (times shown ahead, 0: none), trail (frames that
+  // are uploaded, oldest first).
   draw(k, look) {
     const { gl } = this;
     const slot = this.slots.get(k);

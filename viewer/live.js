@@ -45,7 +45,7 @@ window.caromLive = {
     const { head, store, playback } = viewer;
     const first = store.blocks.length;
     if (news.blocks.length) {
-      this.addDisks(head, store, news);
+      this.addDisks(viewer, news);
       store.addBlocks(news.blocks);
       for (let k = first; k < store.blocks.length; ++k) this.textOf(`block${k}`);
       this.addFrames(viewer, news.times);
@@ -67,13 +67,21 @@ window.caromLive = {
     return all;
   },
 
-  addDisks(head, store, news) {
+  addDisks(viewer, news) {
+    const { head, store } = viewer;
+    const known = new Set(store.group);
     store.id = this.join(store.id, news.id);
     store.radius = this.join(store.radius, news.radius);
     store.mass = this.join(store.mass, news.mass);
-    store.group = this.join(store.group, news.group.length ? news.group : news.id.map(() => 0));
+    store.group = this.join(store.group, news.group);
     store.largest = news.radius.reduce((a, b) => Math.max(a, b), store.largest);
     head.disks = store.id.length;
+    if (news.group.every((group) => known.has(group))) return;
+    head.grouped = store.group.some((group) => group !== store.group[0]);
+    const { options } = document.getElementById("colour");
+    if (head.grouped && ![...options].some(({ value }) => value === "group"))
+      options.add(new window.Option("group"), 1);
+    if (viewer.colour === "group") viewer.range = null; // so that the list of groups is made anew
   },
 
   // A page at its last frame goes on to what came, unless it is being played.

@@ -21,7 +21,7 @@ export class Viewer {
     this.playback = new Playback(store.times, () => element("smooth").checked);
     this.camera = new Camera(this.head.box);
     this.canvas = element("disks");
-    this.renderer = new DiskRenderer(this.canvas, this.head.axes, this.head.box, store.largest);
+    this.renderer = new DiskRenderer(this.canvas, this.head.axes, this.head.box);
     this.plots = new Plots(this.head, (time) => this.jumpToTime(time));
     this.colour = this.head.colour === "group" && !this.head.grouped ? "speed" : this.head.colour;
     this.range = null; // once a block is unpacked
@@ -225,6 +225,7 @@ export class Viewer {
     return {
       camera: this.camera,
       density: this.density,
+      largest: this.store.largest,
       ground: hex("ground"),
       ink: hex("ink"),
       range: this.range ?? [0, 1],

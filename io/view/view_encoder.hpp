@@ -17,7 +17,7 @@ namespace carom {
 struct ViewDisks {
   std::vector<DiskId> id;
   std::vector<double> radius, mass;  // length, mass
-  std::vector<DiskId> group;         // empty where the trajectory does not have it
+  std::vector<DiskId> group;         // 0 where the trajectory does not have it
 };
 
 class ViewEncoder {

@@ -84,8 +84,12 @@ std::string common_value(const std::vector<double>& values) {
   return json_number(values.front());
 }
 
+DiskId first_group(const ViewDisks& disks) {
+  return disks.group.empty() ? 0 : disks.group.front();
+}
+
 bool several_groups(const ViewDisks& disks) {
-  const auto differs = [&](DiskId group) { return group != disks.group.front(); };
+  const auto differs = [&](DiskId group) { return group != first_group(disks); };
   return std::any_of(disks.group.begin(), disks.group.end(), differs);
 }
 
@@ -182,9 +186,9 @@ std::string head_of(const ViewStory& story, const ViewEncoder& encoder, std::str
                   json_string(story.title), json_of_box(story.box), word_of(story.colour));
   json += fmt::format(R"(,"groups":{},"sources":{},"leftOut":{})", json_list(story.groups, json_string),
                       json_list(story.sources, json_of_source), json_list(left_out, json_string));
-  json += fmt::format(R"(,"frames":{},"disks":{},"radius":{},"mass":{},"grouped":{})", encoder.times().size(),
-                      disks.id.size(), common_value(disks.radius), common_value(disks.mass),
-                      several_groups(disks) ? "true" : "false");
+  json += fmt::format(R"(,"frames":{},"disks":{},"radius":{},"mass":{},"grouped":{},"group":{})",
+                      encoder.times().size(), disks.id.size(), common_value(disks.radius), common_value(disks.mass),
+                      several_groups(disks), first_group(disks));
   json += fmt::format(R"(,"insets":{},"obstacles":{},"walls":{})", json_of_insets(story.box, encoder.times()),
                       json_of_obstacles(story.obstacles, false), json_of_obstacles(story.obstacles, true));
   json += fmt::format(R"(,"shifts":{})", json_of_shifts(story.wall_motions, encoder.times()));

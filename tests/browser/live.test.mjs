@@ -25,7 +25,7 @@ mass = 1.0
 [[sources]]
 side = "right"
 rate = 3.0
-radius = 0.3
+radius = 1.2
 mass = 1.0
 velocities = { maxwell = 2.0 }
 [run]
@@ -55,6 +55,12 @@ test("a run that goes on is followed to its end, and what has come stays", async
   await page.waitForFunction((n) => window.carom.head.frames > n, await frames());
   assert.equal(await page.evaluate(() => window.carom.playback.frame), 0);
   assert.equal(await page.textContent("#left-out"), "The run goes on.");
+  // Disks of another group have come, larger than a point can be.
+  await page.waitForFunction(() => window.carom.head.grouped);
+  assert.deepEqual(await page.evaluate(() => [...new Set(window.carom.store.group)]), [0, 1]);
+  await page.selectOption("#colour", "group");
+  await page.waitForFunction(() => document.getElementById("groups").textContent === "group 0sources");
+  await page.waitForFunction(() => !window.carom.renderer.asPoints);
   run.child.kill("SIGTERM");
   assert.equal(await run.ended, 4);
   await page.waitForFunction(() => document.getElementById("left-out").textContent.startsWith("The run has stopped."));

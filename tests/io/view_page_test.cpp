@@ -161,6 +161,7 @@ TEST(ViewPageTable, HasTimesAndWhatDistinguishesDisks) {
   EXPECT_EQ(head["radius"], 0.5);
   EXPECT_EQ(head["mass"], 3.0);
   EXPECT_EQ(head["grouped"], false);
+  EXPECT_EQ(head["group"], 1) << "which disks that come later may not have";
 }
 
 TEST(ViewPageBlocks, AreListedAsTheyAre) {
