@@ -140,6 +140,16 @@ TEST_F(LongLauncher, CountsAreOfTheProgramBuiltNow) {
   EXPECT_THAT(test::text_of(at("root/ninja_asked")), HasSubstr(" carom carom_counts\n"));
 }
 
+// It would run all benchmarks, and replace their results.
+TEST_F(Launcher, AMisspeltBenchmarkRunsNone) {
+  for (const char* const words : {"count", "--check", "count --check"}) {
+    const Outcome o = launch("root/carom bench " + std::string(words));
+    EXPECT_EQ(o.status, 2) << words;
+    EXPECT_THAT(o.err, HasSubstr("carom: error: there is no bench \"")) << words;
+    EXPECT_FALSE(fs::exists(at("root/built"))) << words;
+  }
+}
+
 TEST_F(LongLauncher, PythonHasTheModuleOnItsPathAndItsPackagesOnlyThen) {
   write("root/cmake/packages.txt", "[build]\ncompiler\n[python]\nheaders\n");
   const std::string line = "root/carom python -c 'import os; print(os.environ[\"PYTHONPATH\"])'";
