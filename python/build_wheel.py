@@ -33,14 +33,16 @@ def _tag() -> str:
     return f"{python}-{python}-{sysconfig.get_platform().replace('-', '_').replace('.', '_')}"
 
 
-def _compile() -> pathlib.Path:
-    """The folder of the built package."""
+def _compile() -> list:
+    """The files of the built package: of those that the sources have, as the folder also keeps what earlier ones had."""
     generator = ["-G", "Ninja"] if not (build / "CMakeCache.txt").exists() else []
     subprocess.run(["cmake", "-S", str(root), "-B", str(build), *generator, "-DCMAKE_BUILD_TYPE=Release",
                     "-DCAROM_PYTHON=ON", "-DCAROM_PROGRAM=OFF", "-DCAROM_LIBRARY=OFF", "-DBUILD_TESTING=OFF",
                     f"-DPython3_EXECUTABLE={sys.executable}"], check=True)
     subprocess.run(["cmake", "--build", str(build), "--target", "carom_python", "carom_python_files"], check=True)
-    return build / "python" / "carom"
+    folder = build / "python" / "carom"
+    return [*(folder / file.name for file in sorted((root / "python" / "carom").iterdir()) if file.is_file()),
+            *sorted(folder.glob("_carom*.so"))]
 
 
 def get_requires_for_build_wheel(config_settings=None):
@@ -53,10 +55,9 @@ def get_requires_for_build_sdist(config_settings=None):
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     project = _project()
-    folder = _compile()
     name = f"{project['name']}-{project['version']}"
     info = f"{name}.dist-info"
-    files = {f"carom/{file.name}": file.read_bytes() for file in sorted(folder.iterdir()) if file.is_file()}
+    files = {f"carom/{file.name}": file.read_bytes() for file in _compile()}
     files[f"{info}/METADATA"] = _metadata().encode()
     files[f"{info}/WHEEL"] = f"Wheel-Version: 1.0\nGenerator: carom\nRoot-Is-Purelib: false\nTag: {_tag()}\n".encode()
     record = ""
