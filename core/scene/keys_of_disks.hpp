@@ -37,12 +37,13 @@ inline constexpr SceneKey keys[] = {
     {"disks", "velocities", special, none, "at rest", "Velocities at the start.", "velocities = { maxwell = 1.0 }",
      velocities_allowed},
     {"disks", "radius", positive, Dimension::length, "required", "Radii.", "radius = 0.5", radius_allowed},
-    {"disks", "mass", positive, Dimension::mass, "required, but not by fixed disks", "Masses.", "mass = 1.0",
+    {"disks", "mass", positive, Dimension::mass, "required, but not of fixed disks", "Masses.", "mass = 1.0",
      mass_allowed},
     {"disks", "fixed", flag, none, "false",
      "Obstacles: disks of infinite mass, which never move and have no weight, no velocity and no energy. Others "
      "collide with them as with each other, by `restitution`. Their centres lie in the box; they may overlap each "
-     "other, stick out of it, and be wider than it where its sides are not periodic.",
+     "other, stick out of it, and be wider than it where its sides are not periodic. They take no `mass`, "
+     "`velocities`, `drift` and `spin`.",
      "fixed = true"},
     {"disks", "region", special, Dimension::length, "the box",
      "Where random disks and lattices start: whole disks within this rectangle or circle. A rectangle from one "

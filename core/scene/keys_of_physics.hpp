@@ -156,12 +156,12 @@ inline constexpr SceneKey keys[] = {
      none,
      "required",
      "The TC model, the only one.",
-     R"(model = "tc")",
+     R"(collapse = { model = "tc", contact_time = 1e-6 })",
      {},
      collapse_models},
     {"physics.collapse", "contact_time", positive, Dimension::time, "required",
      "How long a disk's collisions stay elastic after one. Small against the time between collisions of a gas.",
-     "contact_time = 1e-6"},
+     R"(collapse = { model = "tc", contact_time = 1e-6 })"},
 
     {"physics", "thermostat", special, none, "none", "Friction and noise, or velocities drawn anew.",
      R"(thermostat = { kind = "langevin", temperature = 1.0, rate = 0.5, dt = 0.1 })",
@@ -174,17 +174,19 @@ inline constexpr SceneKey keys[] = {
      "`langevin`: every disk keeps the share c of its velocity, (1 - q) / (1 + q) with q = `rate` `dt` / 2, and gets "
      "sqrt((1 - c^2) T / m) times a normal deviate. `andersen`: a disk gets a velocity of Maxwell's with probability "
      "`rate` `dt`.",
-     R"(kind = "langevin")",
+     R"(thermostat = { kind = "langevin", temperature = 1.0, rate = 0.5, dt = 0.1 })",
      {},
      thermostat_names},
     {"physics.thermostat", "temperature", positive, Dimension::energy, "required",
-     "T (k_B = 1); Maxwell's distribution stays as it is, whatever `dt` is.", "temperature = 1.0"},
+     "T (k_B = 1); Maxwell's distribution stays as it is, whatever `dt` is.",
+     R"(thermostat = { kind = "langevin", temperature = 1.0, rate = 0.5, dt = 0.1 })"},
     {"physics.thermostat", "rate", positive, Dimension::frequency, "required",
-     "Of friction, or at which a disk gets a new velocity. `rate` times `dt` is 1 at most.", "rate = 0.5"},
-    {"physics.thermostat", "dt", positive, Dimension::time, "`run.dt`",
+     "Of friction, or at which a disk gets a new velocity. `rate` times `dt` is 1 at most.",
+     R"(thermostat = { kind = "langevin", temperature = 1.0, rate = 0.5, dt = 0.1 })"},
+    {"physics.thermostat", "dt", positive, Dimension::time, "`run.dt`; required without it",
      "Between two kicks, the first at 0. In the stepping methods no less than `run.dt`: there a kick is at the start "
      "of a step.",
-     "dt = 0.1"},
+     R"(thermostat = { kind = "langevin", temperature = 1.0, rate = 0.5, dt = 0.1 })"},
 };
 
 }  // namespace carom::keys_of_physics

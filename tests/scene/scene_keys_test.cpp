@@ -170,7 +170,7 @@ TEST(SceneKeys, EveryExampleIsAScenes) {
     if (owner == "box.side" || owner == "box.side.motion") owner = "box";
     if (owner == "physics.restitution" || owner == "physics.roughness") owner = "physics";
     if (owner == "box.wall_roughness") owner = "box";
-    if (owner == "physics.collapse" && key.example.starts_with("collapse")) owner = "physics";
+    if (owner == "physics.collapse" || owner == "physics.thermostat") owner = "physics";
     std::vector<Override> changes{{owner_of(owner, key.name) + std::string(key.example.substr(0, equals)),
                                    std::string(key.example.substr(equals + 3))}};
     std::string text = scene_for(key);
