@@ -38,6 +38,7 @@ def test_the_tour(monkeypatch, capsys):
     shown = run_cells(source / "docs/tour.ipynb", names)
     assert "pair_correlation" in names["result"].plots and "svg+xml" in "".join(shown)
     assert abs(names["z"] - 4.105) < 5.0 * names["error"] + 0.01 and 0.0 < names["error"] < 0.1
+    assert abs(names["z_of_rate"] - names["z"]) < 5.0 * names["error"]
     assert abs(names["z_of_g"] - 4.105) < 0.25
     assert 1.0 < names["peak"] < 1.1
     for fraction, z in names["swept"].items():
