@@ -10,6 +10,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "app/run/held_signals.hpp"
 #include "core/base/check.hpp"
 #include "core/base/wall_clock.hpp"
 #include "core/scene/scene.hpp"
@@ -185,6 +186,7 @@ Rehearsed rehearse(const Rehearsal& what, const fs::path& path, Count frames, bo
   for (Count k = 0; k < frames; ++k) {
     const double time = static_cast<double>(k) * every;
     outputs.frame(WholeDisks(moved(what.shown, scene, time), time), what.tried.state());
+    HeldSignals::end_if_asked();
   }
   outputs.finish(false);
   r.wall = seconds_since(start);
@@ -345,6 +347,7 @@ OutputForesight foresee_outputs(const Scene& scene, const EngineChoice& choice, 
   const bool draws = plots > 0.0 && !find_program("gnuplot").empty();
   if (scene.output.movie && !finds_ffmpeg()) f.missing.emplace_back(without_ffmpeg);
   if (plots > 0.0 && !draws) f.missing.emplace_back(without_gnuplot);
+  const HeldSignals held;  // until the workshop is gone
   const Workshop workshop;
   try {
     if (workshop.path().empty()) throw RunError("there is no folder for temporary files");

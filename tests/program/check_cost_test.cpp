@@ -66,6 +66,15 @@ TEST_F(CheckCost, ACheckpointHasTheDisksOfSourcesOnce) {
   EXPECT_LT(files["checkpoint.previous.carom"].get<double>(), 4000.0);
 }
 
+// Its folder for temporary files, a movie half made in it, stayed for ever.
+TEST_F(LongCheckCost, ACheckThatIsStoppedLeavesNothingBehind) {
+  const test::Outcome o = shell(
+      "mkdir tmp && export TMPDIR=$PWD/tmp && $C check small.toml --set output.movie=true --set output.every=0.01 & "
+      "P=$!; until ls tmp/carom-check-* >/dev/null 2>&1; do sleep 0.01; done; kill -TERM $P; wait $P");
+  EXPECT_EQ(o.status, 128 + 15);
+  EXPECT_THAT(files_in("tmp"), ::testing::IsEmpty());
+}
+
 TEST_F(LongCheckCost, AnAnalysisHasATableForEachQuantity) {
   const std::string all =
       " --t-end 10 --set output.every=10 --set 'analysis.what=[\"speeds\", \"density\", \"displacement\", "
