@@ -9,6 +9,7 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/messages.hpp"
+#include "app/run/held_signals.hpp"
 #include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
 #include "core/scene/picture_look.hpp"
@@ -174,6 +175,7 @@ void render_movie(const Recording& recording, const RenderOptions& options, cons
     fail_input("--fps", fmt::format("is {}", style.look.fps),
                fmt::format("expected at most {} for a GIF", fastest_gif));
   }
+  const HeldSignals held;  // until the work folder is gone
   const WorkFolder work(target.file);
   MovieWriter movie(work.path.string(), style, *target.movie);
   if (target.single_frames && !options.quiet) {
@@ -181,7 +183,10 @@ void render_movie(const Recording& recording, const RenderOptions& options, cons
   }
   const auto reader = open_frames(recording);
   TrajectoryFrame frame;
-  for (Count k = 0; k < survey.frames && reader->read(frame); ++k) movie.add(frame.disks, frame.time, frame.group);
+  for (Count k = 0; k < survey.frames && reader->read(frame); ++k) {
+    movie.add(frame.disks, frame.time, frame.group);
+    HeldSignals::end_if_asked();
+  }
   movie.finish();
   if (!target.single_frames) return rename_file(work.path / movie_name(*target.movie), target.file);
   put_frames(work.path / "frames", target.made(), work.path / "earlier");

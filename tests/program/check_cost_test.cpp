@@ -70,7 +70,7 @@ TEST_F(CheckCost, ACheckpointHasTheDisksOfSourcesOnce) {
 TEST_F(LongCheckCost, ACheckThatIsStoppedLeavesNothingBehind) {
   const test::Outcome o = shell(
       "mkdir tmp && export TMPDIR=$PWD/tmp && $C check small.toml --set output.movie=true --set output.every=0.01 & "
-      "P=$!; until ls tmp/carom-check-* >/dev/null 2>&1; do sleep 0.01; done; kill -TERM $P; wait $P");
+      "P=$!; until ls tmp/carom-check-* >/dev/null 2>&1 || ! kill -0 $P; do sleep 0.01; done; kill -TERM $P; wait $P");
   EXPECT_EQ(o.status, 128 + 15);
   EXPECT_THAT(files_in("tmp"), ::testing::IsEmpty());
 }

@@ -89,6 +89,19 @@ TEST_F(Render, ADiskFarLargerThanTheBoxIsDrawn) {
   EXPECT_EQ(o.status, 0) << o.err;
 }
 
+// It left a folder with a part of the movie beside where that would have been.
+TEST_F(LongRender, OneThatIsStoppedLeavesNothingBehind) {
+  run_small("--set output.movie=false --set output.every=2e-4");
+  fs::create_directories(at("film"));
+  const Outcome o = shell(
+      "$C render out -o film/movie.mp4 & P=$!; until ls film/movie.mp4.unfinished/* >/dev/null 2>&1 || ! kill -0 $P; "
+      "do sleep 0.01; "
+      "done; "
+      "kill -TERM $P; wait $P");
+  EXPECT_EQ(o.status, 128 + 15);
+  EXPECT_TRUE(fs::is_empty(at("film")));
+}
+
 TEST_F(LongRender, TheScenesMovieLooksAsItSays) {
   run_small();
   EXPECT_EQ(probe("out/movie.mp4"), "h264,640,400,5/1,5\n");
