@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "core/base/input_message.hpp"
@@ -65,18 +66,19 @@ T number_in(const std::string& text, const std::string& word) {
   return value;
 }
 
-bool is_number(const std::string& word) {
+std::optional<double> number_of(const std::string& word) {
   double value = 0.0;
   const char* const end = word.data() + word.size();
   const auto result = std::from_chars(word.data(), end, value);
-  return result.ec == std::errc{} && result.ptr == end;
+  return result.ec == std::errc{} && result.ptr == end ? std::optional(value) : std::nullopt;
 }
 
 std::vector<std::string> range_values(const std::string& text, const std::vector<std::string>& parts) {
   constexpr int most_values = 1'000'000;
   const auto from = number_in<double>(text, parts[0]), to = number_in<double>(text, parts[1]);
   const int count = number_in<int>(text, parts[2]);
-  if (!std::isfinite(from) || !std::isfinite(to) || count < 1 || count > most_values || (count == 1 && from != to)) {
+  if (!std::isfinite(from) || !std::isfinite(to - from) || count < 1 || count > most_values ||
+      (count == 1 && from != to)) {
     fail_input("--over", fmt::format("{} is no range", in_quotes(text)), expected);
   }
   std::vector<std::string> values;
@@ -84,7 +86,7 @@ std::vector<std::string> range_values(const std::string& text, const std::vector
     // Both ends exactly, and the same text however the range is run through: 0.5, 0.55, not 0.55000000000000004.
     const double share = count == 1 ? 0.0 : static_cast<double>(k) / (count - 1);
     const double value = k + 1 == count ? to : from + (to - from) * share;
-    values.push_back(fmt::format("{}", std::stod(fmt::format("{:.15g}", value))));
+    values.push_back(fmt::format("{}", number_of(fmt::format("{:.15g}", value)).value_or(value)));
   }
   return values;
 }
@@ -104,8 +106,8 @@ void check_number_of_runs(const std::vector<SweepAxis>& axes, std::uint64_t seed
 
 // 1.0 and 1 are the same.
 std::string plain(const std::string& value) {
-  const bool fraction = is_number(value) && value.find_first_of(".e") != std::string::npos;
-  return fraction ? fmt::format("{}", std::stod(value)) : value;
+  const std::optional<double> number = number_of(value);
+  return number && value.find_first_of(".e") != std::string::npos ? fmt::format("{}", *number) : value;
 }
 
 // " KEY=VALUE" for each key that a run changes.
@@ -140,7 +142,7 @@ SweepAxis parse_sweep_axis(const std::string& text) {
   const std::vector<std::string> parts = split_values(values, ':');
   if (parts.size() == 3) {
     axis.values = range_values(text, parts);
-  } else if (parts.size() > 1 && is_number(parts[0])) {
+  } else if (parts.size() > 1 && number_of(parts[0])) {
     fail_input("--over", fmt::format("{} is no range", in_quotes(text)), expected);
   } else {
     axis.values = split_values(values, ',');

@@ -56,6 +56,14 @@ TEST(SweepPlan, RangesHaveBothEndsAndNumbersAsOneWouldWriteThem) {
   EXPECT_THAT(values("2.5:2.5:1"), ElementsAre("2.5"));
 }
 
+// Numbers below 2.2e-308, of which there are fewer digits, are numbers; the sweep ended with "error: stod".
+TEST(SweepPlan, TheSmallestAndTheLargestNumbersAreNumbers) {
+  EXPECT_THAT(values("0:1e-310:2"), ElementsAre("0", "1e-310"));
+  EXPECT_THAT(values("1e-310,1e-309"), ElementsAre("1e-310", "1e-309"));
+  EXPECT_THAT(values("1.7976931348623157e308:1.7976931348623157e308:1"), ElementsAre("1.7976931348623157e+308"));
+  EXPECT_THAT(complaint("key=1e-310,10e-311"), HasSubstr("has the value 10e-311 twice"));
+}
+
 TEST(SweepPlan, CommasWithinBracketsAndQuotesPartNoValues) {
   EXPECT_THAT(values("[0.1,-0.5],0.25,[0,-1]"), ElementsAre("[0.1,-0.5]", "0.25", "[0,-1]"));
   EXPECT_THAT(values("{ uniform = [0.1,0.2] },{ a = 1, b = 2 },3"),
@@ -81,8 +89,8 @@ TEST(SweepPlan, AQuoteAfterABackslashEndsNoString) {
 }
 
 TEST(SweepPlan, SaysWhatIsNoRangeAndNoList) {
-  for (const char* const text : {"key=0:1:1", "key=nan:1:3", "key=0:inf:2", "key=0:1:1000001", "key=0:1:0",
-                                 "key=0:1:-2", "key=0:1", "key=0:1:2:3"}) {
+  for (const char* const text : {"key=0:1:1", "key=nan:1:3", "key=0:inf:2", "key=-1e308:1e308:3", "key=0:1:1000001",
+                                 "key=0:1:0", "key=0:1:-2", "key=0:1", "key=0:1:2:3"}) {
     EXPECT_THAT(complaint(text), HasSubstr(std::string("--over: \"") + text +
                                            "\" is no range; expected KEY=FROM:TO:COUNT, of two values or more, or"));
   }
