@@ -115,7 +115,9 @@ std::string series_rows() {
       "read back as they were. The state of a row is that of its time; what is counted or summed since the start, and "
       "means since the row before, are up to the end of the step or window that this time lies in, with `exact` about "
       "two collisions a disk later at most (32 in all where disks are few); rows within one window of it repeat the "
-      "means.\n\n| column | unit | what it is |\n| --- | --- | --- |\n| `t` | time | simulated time |\n";
+      "means. So their plain average over such rows is not that over time: take rows further apart than windows are "
+      "long, or `[analysis]`, which counts pressure and collision rate by the length of intervals.\n\n"
+      "| column | unit | what it is |\n| --- | --- | --- |\n| `t` | time | simulated time |\n";
   for (const SeriesColumn& column : series_columns) {
     text += fmt::format("| `{}` | {} | {} |\n", column.name, column.unit, column.meaning);
   }
