@@ -60,5 +60,31 @@ TEST(Parting, CountsTheJumpOfAShear) {
   EXPECT_EQ(p.vx, before.vx) << "they do not approach any more";
 }
 
+// What parts two disks off the axes is along the line of centres, by mass: no momentum comes of it.
+TEST(Parting, IsAlongTheLineOfCentresByMass) {
+  PathSegment p{0.0, 0.0, 0.0, 1.0, 2.0}, q{0.0, 0.6, 0.8, 0.5, 1.5};
+  part_disks({0.6, 0.8, -0.5, -0.5}, shares(3.0, 1.0), 0.0, p, q);
+  EXPECT_GE(0.6 * (q.vx - p.vx) + 0.8 * (q.vy - p.vy), 0.0);
+  EXPECT_LE(0.6 * (q.vx - p.vx) + 0.8 * (q.vy - p.vy), 2.1 * 0.7);
+  EXPECT_DOUBLE_EQ(3.0 * p.vx + q.vx, 3.5);
+  EXPECT_DOUBLE_EQ(3.0 * p.vy + q.vy, 7.5);
+  EXPECT_NEAR(0.8 * (q.vx - 0.5), 0.6 * (q.vy - 1.5), 1e-15);
+}
+
+// A wall that moves comes after a disk that moves away more slowly: they part in its frame.
+TEST(Parting, FromAWallIsInItsFrame) {
+  const Vec2 line{0.6, 0.8}, wall{0.5, -0.25};
+  for (const double approach : {0.125, -0.125}) {
+    const Vec2 before{wall.x - approach * line.x, wall.y - approach * line.y};
+    PathSegment p{0.0, 0.0, 0.0, before.x, before.y};
+    part_from_wall(line, wall, p);
+    const double away = line.x * (p.vx - wall.x) + line.y * (p.vy - wall.y);
+    EXPECT_GE(away, 0.0);
+    EXPECT_LE(away, 2.1 * 0.125);
+    EXPECT_EQ(p.vx != before.x, approach > 0.0);
+    EXPECT_NEAR(0.8 * (p.vx - before.x), 0.6 * (p.vy - before.y), 1e-15);
+  }
+}
+
 }  // namespace
 }  // namespace carom
