@@ -178,8 +178,8 @@ CAROM_API carom_status carom_get(const carom_world* world, uint32_t id, carom_di
 
 /* A new disk. disk->id is not read: the disk gets one that none has had before, written to *id where that is not null.
  * The whole disk has to lie inside the box, along a period its centre alone, and there the radius is a quarter of the
- * period at most; radius and mass are above 0. CAROM_INPUT where that is not so, CAROM_NO_ROOM where it would overlap
- * another, an inner wall or sink, or a side that has moved in. */
+ * period at most, an eighth in a sheared box; radius and mass are above 0. CAROM_INPUT where that is not so,
+ * CAROM_NO_ROOM where it would overlap another, an inner wall or sink, or a side that has moved in. */
 CAROM_API carom_status carom_add(carom_world* world, const carom_disk* disk, uint32_t* id);
 /* CAROM_NOT_FOUND where there is no disk of this id. Velocities: length / time. */
 CAROM_API carom_status carom_remove(carom_world* world, uint32_t id);

@@ -300,10 +300,13 @@ void Simulation::check_newcomer(const Disk& disk) const {
   check_magnitude("vx", Dimension::speed, disk.vx);
   check_magnitude("vy", Dimension::speed, disk.vy);
   if (state().disks.spins()) check_magnitude("spin", Dimension::frequency, disk.spin);
+  // As of a scene's disks: in a sheared box images move besides, and larger disks could meet one more of them.
+  const double share = box.shear.acts() ? 0.125 : 0.25;
   const auto check_axis = [&](const char* what, double size, bool periodic) {
-    if (!periodic || size >= 4.0 * disk.radius) return;
+    if (!periodic || disk.radius <= share * size) return;
     fail_input("radius", fmt::format("is {}", disk.radius),
-               fmt::format("expected at most a quarter of the periodic {}, {}", what, 0.25 * size));
+               fmt::format("expected at most {} of the periodic {}, {}",
+                           box.shear.acts() ? "an eighth (box.shear_rate)" : "a quarter", what, share * size));
   };
   check_axis("width", box.width, box.periodic_x());
   check_axis("height", box.height, box.periodic_y());

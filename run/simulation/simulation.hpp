@@ -95,7 +95,7 @@ class Simulation {
   // Changes between two steps. add: its id is given, which no disk has had before; absent where the disk would overlap
   // another, a fixed one, an inner wall or sink, or a side that has moved in. The others: false where there is no such
   // disk. Throw InputError for numbers out of range, a disk that reaches out of the box, or one whose radius is more
-  // than a quarter of a periodic width or height.
+  // than a quarter of a periodic width or height, an eighth in a sheared box.
   std::optional<DiskId> add(Disk disk);
   bool remove(DiskId id);
   bool set_velocity(DiskId id, Vec2 velocity);

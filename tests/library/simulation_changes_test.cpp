@@ -335,6 +335,19 @@ TEST(SimulationChanges, RefusesDisksThatCannotBe) {
   EXPECT_EQ(s.hash(), before);
 }
 
+// In a sheared box a disk may be half as large as in others: two of radius 0.237 in one of width 1 were brought
+// together by the images that come along behind the nearest ones, and no collision was seen.
+TEST(SimulationChanges, AddsNoDiskThatAShearedBoxIsTooSmallFor) {
+  Simulation s(parse_scene("[box]\nwidth = 1.0\nheight = 3.0\nleft = \"periodic\"\nright = \"periodic\"\n"
+                           "bottom = \"periodic\"\ntop = \"periodic\"\nshear_rate = -0.32\n[[disks]]\ncount = 0\n"
+                           "positions = \"random\"\nradius = 0.1\nmass = 1.0\n[run]\nt_end = 1.0\n",
+                           "flow.toml", ""),
+               choice());
+  EXPECT_THROW(s.add({0.99, 2.48, 2.03, 1.26, 0.237, 1.0}), InputError);
+  EXPECT_THROW(s.add({0.99, 2.48, 2.03, 1.26, 0.126, 1.0}), InputError);
+  EXPECT_TRUE(s.add({0.99, 2.48, 2.03, 1.26, 0.125, 1.0}));
+}
+
 // What a state remembers of a disk goes with it: its spin, and the loads that it bore as the first of two or the
 // second.
 TEST(SimulationChanges, ADiskThatGoesTakesItsSpinAndItsLoadsAlong) {
