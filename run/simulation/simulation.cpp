@@ -12,6 +12,7 @@
 #include "core/base/input_message.hpp"
 #include "core/disks/disk_columns.hpp"
 #include "core/disks/fastest_speed.hpp"
+#include "core/disks/place_slack.hpp"
 #include "core/disks/state_hash.hpp"
 #include "core/physics/boundary.hpp"
 #include "core/physics/obstacle_contact.hpp"
@@ -37,13 +38,14 @@ void check_size(const char* what, Dimension dimension, double value) {
   if (!(value > 0.0)) fail_input(what, fmt::format("is {}", value), "expected a number above 0");
 }
 
-// One coordinate of a disk that is to lie inside the box.
+// One coordinate of a disk that is to lie inside the box, or touch its side in decimals, as those of a scene may.
 void check_coordinate(const char* what, double c, double radius, double size, bool periodic) {
-  if (!periodic && !(radius <= size / 2.0)) {
+  const double slack = place_slack(radius, size);
+  if (!periodic && !(radius <= size / 2.0 + slack)) {
     fail_input("radius", fmt::format("is {}", radius),
                fmt::format("expected at most {}, half the box, for a disk that has to lie inside it", size / 2.0));
   }
-  const bool inside = periodic ? c >= 0.0 && c < size : c >= radius && c <= size - radius;
+  const bool inside = periodic ? c >= 0.0 && c < size : c >= radius - slack && c <= size - radius + slack;
   if (!inside) {
     fail_input(what, fmt::format("is {}", c),
                periodic ? fmt::format("expected a number from 0 to below {}", size)
@@ -54,7 +56,7 @@ void check_coordinate(const char* what, double c, double radius, double size, bo
 // box: with its sides where they are.
 bool is_beyond_moving_side(const Domain& box, const Disk& disk) {
   return std::any_of(all_sides.begin(), all_sides.end(), [&](Side side) {
-    return box.moves(side) && reach_beyond_wall(side, disk.x, disk.y, disk.radius, box) > 0.0;
+    return box.moves(side) && reach_beyond_wall(side, disk.x, disk.y, disk.radius, box) > place_slack(box, disk.radius);
   });
 }
 

@@ -348,6 +348,22 @@ TEST(SimulationChanges, AddsNoDiskThatAShearedBoxIsTooSmallFor) {
   EXPECT_TRUE(s.add({0.99, 2.48, 2.03, 1.26, 0.125, 1.0}));
 }
 
+// 3.3 - 1.1 is less than 2.2 in binary numbers. A scene may have such a disk, and so may a program.
+TEST(SimulationChanges, AddsADiskThatTouchesASideInDecimals) {
+  for (const std::string method : methods) {
+    SCOPED_TRACE(method);
+    Simulation s(parse_scene("[box]\nwidth = 3.3\nheight = 9.0\n[[disks]]\ncount = 1\npositions = [[1.5, 7.0]]\n"
+                             "radius = 1.1\nmass = 1.0\n[run]\ndt = 0.01\nt_end = 1.0\nmethod = \"" +
+                                 method + "\"\n",
+                             "decimals.toml", ""),
+                 choice());
+    EXPECT_TRUE(s.add({2.2, 2.0, 0.0, 0.0, 1.1, 1.0}));
+    EXPECT_THROW(s.add({2.2 + 1e-9, 4.5, 0.0, 0.0, 1.1, 1.0}), InputError);
+    s.run_until(0.5);
+    EXPECT_LE(wall_overlap(s.state().disks, s.scene().box), 1e-12);
+  }
+}
+
 // What a state remembers of a disk goes with it: its spin, and the loads that it bore as the first of two or the
 // second.
 TEST(SimulationChanges, ADiskThatGoesTakesItsSpinAndItsLoadsAlong) {
