@@ -369,6 +369,90 @@ TEST(ThermalSide, DrawsTheSpinWhereWallsAreRough) {
   }
 }
 
+// Under the TC model a contact with a thermal side, or with one that moves, is a contact as any other.
+TEST(TcWall, CountsContactsWithThermalSidesAndThoseThatMove) {
+  ExactRules rules = tc_rules();
+  rules.box.temperatures[0] = 3.0;
+  rules.box.motions[1].kind = SideMotion::Kind::steady;
+  rules.box.places[1] = {0.0, 0.25, 0.0};
+  for (const Side side : {Side::left, Side::right}) {
+    const bool left = side == Side::left;
+    ExactDisk a = disk_at(left ? 1.0 : 9.0, 5.0, left ? -1.0 : 1.0, 0.0);
+    EXPECT_TRUE(meet_side_at(rules, 0.0, side, a).happened);
+    EXPECT_EQ(a.last_contact, 0.0);
+  }
+}
+
+// What moves away from a side that moves faster than its hop is sent nowhere; what it hops with rubs nothing.
+TEST(TcHop, OffASideThatADiskLeavesIsNone) {
+  ExactRules rules = tc_rules();
+  rules.gravity = 0.8;
+  const Surfaces surfaces{0.5, {0.5, HUGE_VAL}, {0.5, HUGE_VAL}};
+  rules.surfaces = &surfaces;
+  rules.box.motions[2].kind = SideMotion::Kind::steady;
+  rules.box.places[2] = {0.0, 0.25, 0.0};
+  const double hop = 0.25 * 0.8 * contact_time;
+  for (const double away : {2.0 * hop, 0.5 * hop}) {
+    ExactDisk a = disk_at(5.0, 1.0, 1.0, 0.25 + away);
+    a.spin = 3.0;
+    const WallImpact impact = meet_side_at(rules, 0.0, Side::bottom, a);
+    EXPECT_DOUBLE_EQ(a.path.vy, 0.25 + std::max(away, hop));
+    EXPECT_EQ(a.path.vx, 1.0);
+    EXPECT_EQ(a.spin, 3.0);
+    EXPECT_NEAR(impact.impulse, 2.0 * (std::max(away, hop) - away), 1e-15);
+  }
+}
+
+// A fixed disk rubs what it hits by the speed that the hit changes, whatever the distance of the centres; it rubs
+// nothing that only hops off.
+TEST_F(TcObstacle, RubsWhatItHits) {
+  const Surfaces surfaces{0.5, {0.5, 0.1}, {0.5, 0.1}};
+  rules.surfaces = &surfaces;
+  rules.gravity = 0.8;
+  place(peg);
+  ExactDisk hits = disk_at(5.0, 8.0, 3.0, -2.0);
+  meet_obstacle_at(rules, 0.0, 0, hits);
+  EXPECT_NEAR(hits.path.vx, 3.0 - 0.1 * 3.0, 1e-14);
+  ExactDisk hops = disk_at(5.0, 8.0, 3.0, 0.0);
+  meet_obstacle_at(rules, 0.0, 0, hops);
+  EXPECT_EQ(hops.path.vx, 3.0);
+  EXPECT_EQ(hops.spin, 0.0);
+}
+
+// Across the top of a sheared box the second disk's image collides, which moves faster by the jump. A disk that is out
+// of the box is brought back, and what the shear does is all the energy that comes.
+TEST(CollideSheared, AcrossTheTopGivesTheWorkOfTheShear) {
+  ExactRules rules;
+  rules.box = test::box_of(20.0, 10.0, true, true);
+  rules.box.shear = {0.4, 4.0, 3.0};
+  rules.common_mass = false;
+  const double s = 0.25;
+  const double offset = 3.0 + 4.0 * s;
+  for (const bool first_crosses : {true, false}) {
+    // At time s the first is at (5, y), and the second one's image at (6.2, y + 1.6).
+    const double y = first_crosses ? 10.05 : 8.35;
+    ExactDisk a = disk_at(5.0 - 0.5 * s, y - s, 0.5, 1.0);
+    ExactDisk b = disk_at(6.2 - offset + 5.0 * s, y + 1.6 - 10.0 + s, -5.0, -1.0);
+    b.id = 1;
+    b.mass = 3.0;
+    const auto energy = [&] {
+      return 0.5 * 2.0 * (a.path.vx * a.path.vx + a.path.vy * a.path.vy) +
+             0.5 * 3.0 * (b.path.vx * b.path.vx + b.path.vy * b.path.vy);
+    };
+    const double before = energy();
+    const PairImpact impact = collide_at(rules, s, a, b);
+    EXPECT_TRUE(impact.happened);
+    EXPECT_NEAR(a.path.x, first_crosses ? 5.0 - offset : 5.0, 1e-13);
+    EXPECT_NEAR(a.path.y, first_crosses ? 0.05 : 8.35, 1e-13);
+    EXPECT_NEAR(b.path.x, first_crosses ? 6.2 - offset : 6.2, 1e-13);
+    EXPECT_NEAR(b.path.y, first_crosses ? 1.65 : 9.95, 1e-13);
+    EXPECT_NEAR(a.path.vy, 1.0 - 0.8 * 2.0 * 2.5 * 0.6, 1e-14);
+    EXPECT_NEAR(b.path.vy, -1.0 + 0.8 * 2.0 * 2.5 * 0.4, 1e-14);
+    EXPECT_NEAR(impact.shear_work, energy() - before, 1e-13);
+    EXPECT_NE(impact.shear_work, 0.0);
+  }
+}
+
 // An inner wall, of its own restitution, goes by no law of the disk that has its number; a fixed disk does.
 TEST(Dissipation, OfAnInnerWallIsItsOwn) {
   const RestitutionLaw law{0.0, {1, 2}, {{0, 1, {0.5, 0.0}}}};

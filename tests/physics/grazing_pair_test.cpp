@@ -5,6 +5,8 @@
 #include <numbers>
 #include <tuple>
 
+#include "core/disks/obstacle_cells.hpp"
+#include "core/physics/exact_event.hpp"
 #include "core/physics/parting.hpp"
 #include "core/physics/resolve.hpp"
 #include "tests/support/disks_by_hand.hpp"
@@ -83,6 +85,78 @@ TEST(Parting, FromAWallIsInItsFrame) {
     EXPECT_LE(away, 2.1 * 0.125);
     EXPECT_EQ(p.vx != before.x, approach > 0.0);
     EXPECT_NEAR(0.8 * (p.vx - before.x), 0.6 * (p.vy - before.y), 1e-15);
+  }
+}
+
+// A unit vector, and a velocity at a right angle to it, in any direction.
+struct Grazing {
+  Vec2 n, along;
+};
+Grazing graze(test::Draws& draws) {
+  const double angle = draws.in(0.0, 2.0 * std::numbers::pi);
+  const double slide = draws.in(0.1, 10.0);
+  return {{std::cos(angle), std::sin(angle)}, {-slide * std::sin(angle), slide * std::cos(angle)}};
+}
+
+// Two disks that meet at the moment at which both began their paths, and approach by rounding alone, approach no more
+// afterwards; across the top of a sheared box too.
+TEST(Parting, LeavesNoDisksThatApproachByRounding) {
+  test::Draws draws(29);
+  ExactRules rules;
+  rules.box = test::box_of(20.0, 20.0, true, true);
+  for (const bool sheared : {false, true}) {
+    if (sheared) rules.box.shear = {0.5, 10.0, 3.0};
+    int approached = 0;
+    for (int k = 0; k < 2000; ++k) {
+      const auto [n, along] = graze(draws);
+      ExactDisk a, b;
+      a.path = {0.5, 10.0, sheared ? 19.9 : 10.0, 0.0, 0.0};
+      b.path = {0.5, a.path.x + n.x, a.path.y + n.y, along.x, along.y};
+      if (sheared) b.path = {0.5, b.path.x - 8.0, b.path.y - 20.0, along.x - 10.0, along.y};
+      if (sheared && n.y < 0.1) continue;  // not across the top
+      const auto now = [&] {
+        return sheared ? relative_in_shear(a.path, b.path, rules.box) : relative(a.path, b.path, rules.box);
+      };
+      const Relative met = now();
+      if (!(met.approach() < 0.0)) continue;
+      ++approached;
+      collide_at(rules, 0.5, a, b);
+      EXPECT_GE(met.dx * now().dvx + met.dy * now().dvy, 0.0) << k;
+    }
+    EXPECT_GT(approached, 10) << "the case that this test is about";
+  }
+}
+
+// Likewise a disk at the end of an inner wall, at rest or not.
+TEST(Parting, LeavesNoDiskThatApproachesAWallByRounding) {
+  test::Draws draws(31);
+  ExactRules rules;
+  rules.box = test::box_of(20.0, 20.0, true, true);
+  for (const bool moves : {false, true}) {
+    const Vec2 wall_speed = moves ? Vec2{0.3, 0.7} : Vec2{};
+    Obstacle wall{8.0, 10.0, 2.0, 0.0, 0.0, 1.0, 0, ObstacleKind::wall};
+    wall.moves = moves;
+    const ObstacleCells cells({wall}, {WallMotion{{SideMotion::Kind::steady, 0.0, 1.0}, wall_speed}}, rules.box);
+    rules.box.obstacles = &cells;
+    const Vec2 end{10.0 + 0.5 * wall_speed.x, 10.0 + 0.5 * wall_speed.y};
+    int approached = 0;
+    for (int k = 0; k < 2000; ++k) {
+      const auto [n, along] = graze(draws);
+      if (n.x < 0.0) continue;  // not at the end of the wall
+      ExactDisk a;
+      a.radius = 1.0;
+      a.path = {0.5, end.x + n.x, end.y + n.y, along.x + wall_speed.x, along.y + wall_speed.y};
+      const auto approach = [&] {
+        const Obstacle here = moves ? placed(wall, rules.box, 0.5).obstacle : wall;
+        const Vec2 line = shortest_line_wound(here, a.path.x, a.path.y, rules.box).line;
+        return line.x * (a.path.vx - wall_speed.x) + line.y * (a.path.vy - wall_speed.y);
+      };
+      if (!(approach() < 0.0)) continue;
+      ++approached;
+      meet_obstacle_at(rules, 0.5, 0, a);
+      EXPECT_GE(approach(), 0.0) << k;
+    }
+    EXPECT_GT(approached, 10) << "the case that this test is about";
   }
 }
 

@@ -292,6 +292,47 @@ TEST(ResolveWall, AsksForTheRestitutionOfTheSpeedAtTheObstacle) {
   }
 }
 
+// e = 1 - a v^(1/5) falls to its least and no further; an inner wall, which is of no law, keeps its own.
+TEST(RestitutionOfAContact, FallsToItsLeast) {
+  EXPECT_DOUBLE_EQ(restitution_at({0.5, 0.25}, 1.0), 0.75);
+  EXPECT_EQ(restitution_at({0.5, 0.25}, 1e6), 0.5);
+  EXPECT_EQ(restitution_at({0.5, 0.0}, 1e6), 0.5);
+  StepRules rules = rules_of(0.0, 0.0);
+  const RestitutionLaw law{0.0, {1, 2}, {{0, 1, {0.75, 0.0}}}};  // of disk 0 with disk 1
+  rules.law = &law;
+  const Obstacle peg{5.0, 5.0, 0.0, 0.0, 1.0, 1.0, 1, ObstacleKind::disk};
+  const Obstacle wall{5.0, 5.0, 2.0, 0.0, 0.0, 0.25, 1, ObstacleKind::wall};
+  EXPECT_EQ(restitution_under_law(rules, 0, peg, 1.0), 0.75);
+  EXPECT_EQ(restitution_under_law(rules, 0, wall, 1.0), 0.25);
+}
+
+// May a contact lose energy? By the law of the two disks, fixed or not, by the wall's own restitution, or along
+// surfaces: of disks beside a disk, of walls beside a wall; a thermal side draws, and loses nothing by its surface.
+TEST(RestitutionOfAContact, TellsWhetherItMayLoseEnergy) {
+  const DiskId floor = wall_partner(Side::bottom);
+  StepRules rules = rules_of(0.0, 1.0);
+  const ObstacleCells cells({{5.0, 5.0, 0.0, 0.0, 1.0, 0.5, 1, ObstacleKind::disk}}, {}, rules.box);
+  rules.box.obstacles = &cells;
+  EXPECT_FALSE(may_lose_energy(rules, 0, 1) || may_lose_energy(rules, 0, floor));
+  EXPECT_TRUE(may_lose_energy(rules, 0, obstacle_partner(0)));
+  rules.box.restitutions[2] = 0.5;
+  EXPECT_TRUE(may_lose_energy(rules, 0, floor));
+  rules.box.restitutions[2] = 1.0;
+  const RestitutionLaw law{0.0, {1, 2}, {{0, 1, {0.75, 0.0}}}};
+  rules.law = &law;
+  EXPECT_TRUE(may_lose_energy(rules, 0, 1) && may_lose_energy(rules, 0, obstacle_partner(0)));
+  EXPECT_FALSE(may_lose_energy(rules, 0, 0) || may_lose_energy(rules, 0, 7) || may_lose_energy(rules, 0, floor));
+  rules.law = nullptr;
+  Surfaces surfaces;
+  surfaces.inertia = 0.5;
+  surfaces.walls = {0.5, 0.1};
+  rules.surfaces = &surfaces;
+  EXPECT_TRUE(may_lose_energy(rules, 0, floor));
+  EXPECT_FALSE(may_lose_energy(rules, 0, 1));
+  rules.box.temperatures[2] = 1.0;
+  EXPECT_FALSE(may_lose_energy(rules, 0, floor));
+}
+
 // In a sheared box the stress is the virial along x and y: the momentum along x that goes along y. Across the top the
 // image has so much more energy than the disk: the jump times the momentum, which the shear does not give.
 TEST(SeeShear, CountsMomentumThatGoesAlongY) {

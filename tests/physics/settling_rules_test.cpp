@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include "core/disks/obstacle_cells.hpp"
@@ -88,6 +89,36 @@ TEST(Support, IsSolvedWithAllCrowdedContactsThatDissipate) {
   EXPECT_FALSE(solved(false));
   rules.restitution = 1.0;
   EXPECT_FALSE(solved(true));
+}
+
+// What counts is the speed in the frame of a side, or of an inner wall, that moves.
+TEST(Support, IsASlowContactInTheFrameOfTheWall) {
+  StepRules rules = settling_rules();
+  rules.box.places[2] = {0.0, 1.0, 0.0};
+  const WallMotion up{{SideMotion::Kind::steady, 0.0, 1.0}, {0.0, 1.0}};
+  Obstacle ledge{5.0, 5.0, 10.0, 0.0, 0.0, 0.5, 0, ObstacleKind::wall};
+  ledge.moves = true;
+  const ObstacleCells cells({ledge}, {up}, rules.box);
+  rules.box.obstacles = &cells;
+  for (const double speed : {1.9 * g * dt, 2.1 * g * dt}) {
+    Disks disks = test::disks_of({{5.0, 1.0, 0.0, 1.0 - speed, 1.0, 1.0}, {9.0, 6.0, 0.0, 1.0 - speed, 1.0, 1.0}});
+    with_view(disks, [&](const auto& d) {
+      for (const ContactEvent& e : {contact_of(0, wall_partner(Side::bottom)), contact_of(1, obstacle_partner(0))}) {
+        EXPECT_NEAR(normal_velocity(d, rules.box, e), -speed, 1e-14);
+        EXPECT_EQ(is_support(d, rules, e, false, false), speed < 2.0 * g * dt);
+      }
+    });
+  }
+}
+
+// Of the two disks, not of one of them with another.
+TEST(Load, IsThatOfTheSameContact) {
+  const std::vector<ContactLoad> loads{{0, 2, 3.0}, {1, 2, 5.0}};
+  EXPECT_EQ(load_of(loads, contact_of(0, 2)), 3.0);
+  EXPECT_EQ(load_of(loads, contact_of(1, 2)), 5.0);
+  EXPECT_EQ(load_of(loads, contact_of(0, 1)), 0.0);
+  EXPECT_EQ(load_of(loads, contact_of(0, 3)), 0.0);
+  EXPECT_EQ(load_of(loads, contact_of(2, 3)), 0.0);
 }
 
 // 64 g dt^2, and half a percent of the sum of the radii (of the radius, at a wall) at most.
@@ -392,6 +423,108 @@ TEST(Load, CountsWhereNothingCollides) {
     all.count_into(counters);
     EXPECT_DOUBLE_EQ(counters.virial, is_wall(other) ? 0.0 : 8.0 * dt * 2.0);
     EXPECT_DOUBLE_EQ(counters.wall_impulse[2], is_wall(other) ? 8.0 * dt : 0.0);
+  }
+}
+
+// Of two disks by the mass that their contact feels; at a wall the impulse alone, whatever the radius.
+TEST(Load, IsOfTheMassThatTheContactFeels) {
+  const StepRules rules = settling_rules();
+  Disks disks = test::disks_of({{5.0, 0.5, 0.0, 0.0, 0.5, 3.0}, {6.0, 0.5, 0.0, 0.0, 0.5, 1.0}});
+  SupportSet set;
+  EXPECT_DOUBLE_EQ(begun(set, disks, rules, contact_of(0, 1), 8.0).effective, 0.75);
+  const Support at_wall = begun(set, disks, rules, contact_of(0, wall_partner(Side::bottom)), 8.0);
+  EXPECT_EQ(at_wall.effective, 3.0);
+  EXPECT_DOUBLE_EQ(borne(set, 0, at_wall), 8.0 * dt);
+}
+
+// Cycles of sweeps that change what a script says.
+struct ScriptedSweeps {
+  std::function<CycleFigures(int)> script;
+  double impulse = 0.0, mass = 1.0;  // of all supports
+  mutable int cycles = 0;
+  mutable std::vector<double> momenta;
+  mutable std::vector<int> watched, weighed;
+
+  template <Watch watch>
+  CycleFigures cycle() const {
+    ++cycles;
+    if (watch == Watch::nothing) return {};
+    watched.push_back(cycles);
+    if (watch == Watch::all) weighed.push_back(cycles);
+    return script(cycles);
+  }
+  void extrapolate(double momentum) const { momenta.push_back(momentum); }
+  SupportTotals totals() const {
+    SupportTotals all;
+    all.add(impulse, mass);
+    return all;
+  }
+};
+
+constexpr double fall = g * dt;
+
+CycleFigures changes(double largest, double strain = 0.0, double square = 0.0, double ahead = 1.0) {
+  CycleFigures figures;
+  figures.largest = largest;
+  figures.strain = strain;
+  figures.square.add(square);
+  figures.ahead.add(ahead);
+  return figures;
+}
+
+int cycles_of(const std::function<CycleFigures(int)>& script, double layers = 0.0) {
+  const ScriptedSweeps sweeps{script, layers * fall, 1.0, 0, {}, {}, {}};
+  solve_supports(settling_rules(), sweeps);
+  return sweeps.cycles;
+}
+
+// Twelve cycles, or twenty-four where something lands, and no more from where changes are 5e-4 of g dt, or of the
+// first.
+TEST(SupportCycles, AreMoreWhereSomethingLands) {
+  EXPECT_EQ(cycles_of([](int) { return changes(4.9e-4 * fall); }), 1);
+  EXPECT_EQ(cycles_of([](int k) { return changes(k < 2 ? fall : 4.9e-4 * fall); }), 2);
+  EXPECT_EQ(cycles_of([](int) { return changes(3.9 * fall); }), 12);
+  EXPECT_EQ(cycles_of([](int) { return changes(4.1 * fall); }), 24);
+  EXPECT_EQ(cycles_of([](int k) { return changes(k == 1 ? 5.0 : k < 14 ? 2.6e-3 : 2.4e-3); }), 16);
+}
+
+// They go on while disks would be pressed together by more than a thousandth of their radii in a step, 256 at most.
+TEST(SupportCycles, GoOnWhileDisksArePressedTogether) {
+  const double much = 1.1e-3 / dt, little = 0.9e-3 / dt;
+  EXPECT_EQ(cycles_of([&](int k) { return changes(fall, k < 99 ? much : little); }), 100);
+  EXPECT_EQ(cycles_of([&](int) { return changes(fall, much); }), 256);
+}
+
+// In a pile 200 layers high that trembles they go on to 40, or until it is calm; not where it lands.
+TEST(SupportCycles, GoOnWhileAPileTrembles) {
+  const double calm = 3e-4 * fall, trembling = fall;
+  EXPECT_EQ(cycles_of([&](int) { return changes(fall, 0.0, 1.1 * calm * calm); }, 201.0), 40);
+  EXPECT_EQ(cycles_of([&](int k) { return changes(fall, 0.0, (k < 20 ? 1.1 : 0.9) * calm * calm); }, 201.0), 20);
+  EXPECT_EQ(cycles_of([&](int) { return changes(fall, 0.0, 0.9 * trembling * trembling); }, 201.0), 40);
+  EXPECT_EQ(cycles_of([&](int) { return changes(fall, 0.0, 1.1 * trembling * trembling); }, 201.0), 12);
+}
+
+// Momentum grows with its age, and begins anew where it overshoots. The first two cycles are watched, and each fourth.
+TEST(SupportCycles, TakeMomentumUntilItOvershoots) {
+  const ScriptedSweeps sweeps{
+      [](int k) { return changes(fall, 0.0, 0.0, k == 4 ? -1.0 : 1.0); }, 0.0, 1.0, 0, {}, {}, {}};
+  solve_supports(settling_rules(), sweeps);
+  const std::vector<double> first(sweeps.momenta.begin(), sweeps.momenta.begin() + 6);
+  EXPECT_EQ(first, (std::vector<double>{0.0, 1.0 / 4.0, 2.0 / 5.0, 0.0, 1.0 / 4.0, 2.0 / 5.0}));
+  EXPECT_EQ(sweeps.momenta.size(), 11U);
+  EXPECT_EQ(sweeps.watched, (std::vector<int>{1, 2, 4, 8, 12}));
+  EXPECT_EQ(sweeps.weighed, (std::vector<int>{4, 8, 12}));
+}
+
+// Of parts the larger figures, and the sums.
+TEST(SupportCycles, HaveTheFiguresOfTheirParts) {
+  for (const bool first_larger : {true, false}) {
+    CycleFigures all = changes(first_larger ? 3.0 : 1.0, first_larger ? 0.5 : 0.25, 1.0, -2.0);
+    all.add(changes(first_larger ? 1.0 : 3.0, first_larger ? 0.25 : 0.5, 2.0, -3.0));
+    EXPECT_EQ(all.largest, 3.0);
+    EXPECT_EQ(all.strain, 0.5);
+    EXPECT_EQ(all.square.value(), 3.0);
+    EXPECT_EQ(all.ahead.value(), -5.0);
   }
 }
 
