@@ -36,6 +36,9 @@ void save_checkpoint(const std::string& folder, const RunRecord& record, const S
 namespace {
 
 [[noreturn]] void fail_without_checkpoint(const std::string& name, const fs::path& folder) {
+  if (is_being_written(folder)) {
+    fail_input(name, "another run is writing there, and has no checkpoint yet", "expected one that has stopped");
+  }
   if (!fs::exists(folder / "summary.json")) {
     fail_input(name, "holds no checkpoint", "expected a checkpoint, or the folder of a run that wrote one");
   }

@@ -94,6 +94,12 @@ TEST_F(CheckpointFolder, WhereThereIsNoneItSaysWhatThereIs) {
   EXPECT_THAT(complaint(), HasSubstr("run: has lost its checkpoint.carom; the one before it is there: carom resume "));
 }
 
+TEST_F(CheckpointFolder, WhereARunGoesOnItSaysSo) {
+  const OutputFolder going_on(run_, folder_.write("scene.toml", ""), true);
+  EXPECT_THAT(complaint(), EndsWith("run: another run is writing there, and has no checkpoint yet; expected one that "
+                                    "has stopped"));
+}
+
 TEST_F(CheckpointFolder, TheOneBeforeIsNamedWhereItHelps) {
   folder_.write("run/" + std::string(unfinished_name) + "/" + checkpoint_name, "damaged");
   EXPECT_THAT(complaint(), Not(HasSubstr("before")));
