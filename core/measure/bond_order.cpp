@@ -47,11 +47,13 @@ std::optional<std::vector<Vec2>> bond_orders_of_first(const Disks& d, std::size_
   constexpr std::size_t block = 4096;  // disks
   if (first == 0) return std::vector<Vec2>();
   if (d.size() < least_of_bonds) return std::nullopt;
-  const NearestDisks disks(d, box);
+  const NearestDisks disks(d, box, run);
   std::vector<Vec2> orders(first);
   std::atomic<bool> all_known = true;
-  run((first + block - 1) / block, [&](std::size_t b) {
-    for (std::size_t i = b * block; i < std::min(first, (b + 1) * block) && all_known; ++i) {
+  run((d.size() + block - 1) / block, [&](std::size_t b) {
+    for (std::size_t k = b * block; k < std::min(d.size(), (b + 1) * block) && all_known; ++k) {
+      const std::size_t i = disks.in_order(k);
+      if (i >= first) continue;
       const NearestNeighbours found = disks.of(i);
       if (found.back().distance2 > known * known) {
         all_known = false;

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace carom {
 
 namespace {
 
 constexpr std::size_t disks_a_leaf = 16;
+constexpr std::size_t most_at_once = 256;  // nodes
 
 double outside(double c, double low, double high) {
   return std::max(std::max(low - c, c - high), 0.0);
@@ -17,33 +17,51 @@ double outside(double c, double low, double high) {
 
 }  // namespace
 
-NearestDisks::NearestDisks(const Disks& disks, const Domain& box) : disks_(disks), box_(box), order_(disks.size()) {
+NearestDisks::NearestDisks(const Disks& disks, const Domain& box, const BlockRunner& run) : disks_(disks), box_(box) {
   std::size_t leaves = 1;
   while (leaves * disks_a_leaf < disks.size()) leaves *= 2;
   first_leaf_ = leaves - 1;
   nodes_.resize(2 * leaves - 1);
-  std::iota(order_.begin(), order_.end(), std::size_t{0});
-  divide(0, 0, disks.size());
-  places_.reserve(disks.size());
-  for (const std::size_t i : order_) places_.push_back({disks.x[i], disks.y[i]});
+  centres_.reserve(disks.size());
+  for (std::size_t i = 0; i < disks.size(); ++i) centres_.push_back({disks.x[i], disks.y[i], i});
+  // Level by level, until there are enough nodes for any number of threads.
+  std::vector<Span> spans{{0, disks.size()}};
+  while (spans.size() < std::min(leaves, most_at_once)) {
+    std::vector<Span> halves(2 * spans.size());
+    run(spans.size(), [&](std::size_t k) {
+      const std::size_t middle = halve(spans.size() - 1 + k, spans[k]);
+      halves[2 * k] = {spans[k].begin, middle};
+      halves[2 * k + 1] = {middle, spans[k].end};
+    });
+    spans.swap(halves);
+  }
+  run(spans.size(), [&](std::size_t k) { divide(spans.size() - 1 + k, spans[k]); });
 }
 
-// Disks [begin, end) of the order are those of the node.
-void NearestDisks::divide(std::size_t node, std::size_t begin, std::size_t end) {
+// Puts the rectangle around the node's centres, and those of its two halves apart. Returns where the second half
+// begins.
+std::size_t NearestDisks::halve(std::size_t node, Span span) {
   Node& n = nodes_[node];
   n = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
-  for (std::size_t k = begin; k < end; ++k) {
-    const double x = disks_.x[order_[k]], y = disks_.y[order_[k]];
-    n.low = {std::min(n.low.x, x), std::min(n.low.y, y)};
-    n.high = {std::max(n.high.x, x), std::max(n.high.y, y)};
+  for (std::size_t k = span.begin; k < span.end; ++k) {
+    const Centre& c = centres_[k];
+    n.low = {std::min(n.low.x, c.x), std::min(n.low.y, c.y)};
+    n.high = {std::max(n.high.x, c.x), std::max(n.high.y, c.y)};
   }
+  const std::size_t middle = span.begin + (span.end - span.begin) / 2;
+  if (node >= first_leaf_) return middle;
+  const auto along = n.high.x - n.low.x > n.high.y - n.low.y ? &Centre::x : &Centre::y;
+  const auto at = [&](std::size_t k) { return centres_.begin() + static_cast<std::ptrdiff_t>(k); };
+  std::nth_element(at(span.begin), at(middle), at(span.end),
+                   [along](const Centre& a, const Centre& b) { return a.*along < b.*along; });
+  return middle;
+}
+
+void NearestDisks::divide(std::size_t node, Span span) {
+  const std::size_t middle = halve(node, span);
   if (node >= first_leaf_) return;
-  const auto& along = n.high.x - n.low.x > n.high.y - n.low.y ? disks_.x : disks_.y;
-  const std::size_t middle = begin + (end - begin) / 2;
-  const auto at = [&](std::size_t k) { return order_.begin() + static_cast<std::ptrdiff_t>(k); };
-  std::nth_element(at(begin), at(middle), at(end), [&](std::size_t a, std::size_t b) { return along[a] < along[b]; });
-  divide(2 * node + 1, begin, middle);
-  divide(2 * node + 2, middle, end);
+  divide(2 * node + 1, {span.begin, middle});
+  divide(2 * node + 2, {middle, span.end});
 }
 
 // One disk's, from one image of it after the other.
@@ -60,7 +78,7 @@ class NearestDisks::Search {
       double x = all_.disks_.x[i_];
       if (box.shear.acts() && row != 0.0) x = wrap(x + row * box.shear.offset, box.width);
       images(x, box.periodic_x() ? box.width : 0.0, root.low.x, root.high.x, [&](double column, double) {
-        look({column, y}, 0, 0, all_.order_.size());
+        look({column, y}, 0, 0, all_.centres_.size());
       });
     });
     return found_;
@@ -103,8 +121,9 @@ class NearestDisks::Search {
 
   void look_at_leaf(Vec2 from, std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      const double x = all_.places_[k].x - from.x, y = all_.places_[k].y - from.y;
-      if (x * x + y * y <= reach2_) meet(all_.order_[k]);
+      const Centre& c = all_.centres_[k];
+      const double x = c.x - from.x, y = c.y - from.y;
+      if (x * x + y * y <= reach2_) meet(c.disk);
     }
   }
 

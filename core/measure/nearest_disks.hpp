@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/base/block_runner.hpp"
 #include "core/disks/disks.hpp"
 #include "core/disks/domain.hpp"
 
@@ -28,19 +29,30 @@ using NearestNeighbours =
 class NearestDisks {
  public:
   // Both must outlive it. Precondition: seven disks or more.
-  NearestDisks(const Disks& disks, const Domain& box);
+  NearestDisks(const Disks& disks, const Domain& box, const BlockRunner& run);
 
   // Of disk i, by its distance from the nearest image of each of the others. O(log N).
   NearestNeighbours of(std::size_t i) const;
 
+  // The k-th of all disks, in an order in which those near each other come soon after each other.
+  std::size_t in_order(std::size_t k) const { return centres_[k].disk; }
+
  private:
+  struct Centre {
+    double x, y;  // length
+    std::size_t disk;
+  };
   // Centres lie between low and high; length.
   struct Node {
     Vec2 low, high;
   };
   class Search;
 
-  void divide(std::size_t node, std::size_t begin, std::size_t end);
+  struct Span {
+    std::size_t begin, end;
+  };
+  std::size_t halve(std::size_t node, Span span);
+  void divide(std::size_t node, Span span);
   Vec2 apart(std::size_t i, std::size_t j) const;
   Vec2 nearest_of_rows(Vec2 raw) const;
 
@@ -48,8 +60,7 @@ class NearestDisks {
   const Domain& box_;
   std::size_t first_leaf_ = 0;  // the nodes from here on have no nodes below them, those before two each, at 2 k + 1
   std::vector<Node> nodes_;
-  std::vector<std::size_t> order_;  // disks, so that those of a node lie one after the other
-  std::vector<Vec2> places_;        // theirs; length
+  std::vector<Centre> centres_;  // those of a node lie one after the other
 };
 
 }  // namespace carom
