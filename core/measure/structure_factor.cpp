@@ -1,5 +1,6 @@
 #include "core/measure/structure_factor.hpp"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -7,23 +8,47 @@ namespace carom {
 
 namespace {
 
+// So many disks at a time, as the powers of one are a chain in which each waits for the one before.
+constexpr std::size_t disks_at_once = 8;
+
+// Of each the share of a period, in their order.
+struct SharesOfPeriod {
+  std::array<double, disks_at_once> share{};
+  std::size_t count = 0;
+  bool full() const { return count == disks_at_once; }
+  void add(double next) { share[count++] = next; }
+};
+
 // Sums of exp(i k x) over the disks, wave number by wave number.
 class Waves {
  public:
   explicit Waves(std::size_t count) : real_(count, 0.0), imaginary_(count, 0.0) {}
 
-  // Powers of one exponential a disk, as sines and cosines of each wave number would cost many times more.
-  void add(double share_of_period) {
-    const double phase = 2.0 * std::numbers::pi * share_of_period;
-    const double c = std::cos(phase), s = std::sin(phase);
-    double re = 1.0, im = 0.0;
-    for (std::size_t n = 0; n < real_.size(); ++n) {
-      const double next = re * c - im * s;
-      im = re * s + im * c;
-      re = next;
-      real_[n] += re;
-      imaginary_[n] += im;
+  // Powers of one exponential a disk, as sines and cosines of each wave number would cost many times more. Forgets the
+  // shares.
+  void take(SharesOfPeriod& of) {
+    std::array<double, disks_at_once> c{}, s{}, re{}, im{};  // where there is no disk, 0 is added
+    for (std::size_t k = 0; k < of.count; ++k) {
+      const double phase = 2.0 * std::numbers::pi * of.share[k];
+      c[k] = std::cos(phase);
+      s[k] = std::sin(phase);
+      re[k] = 1.0;
     }
+    for (std::size_t n = 0; n < real_.size(); ++n) {
+      double real = real_[n], imaginary = imaginary_[n];
+      for (std::size_t k = 0; k < disks_at_once; ++k) {
+        const double next = re[k] * c[k] - im[k] * s[k];
+        im[k] = re[k] * s[k] + im[k] * c[k];
+        re[k] = next;
+      }
+      for (std::size_t k = 0; k < disks_at_once; ++k) {
+        real += re[k];
+        imaginary += im[k];
+      }
+      real_[n] = real;
+      imaginary_[n] = imaginary;
+    }
+    of.count = 0;
   }
 
   // Likewise along x in a sheared box: exp(i n a) with the phase a of k = (2 pi / width) (1, -offset / height), which
@@ -64,12 +89,17 @@ class Waves {
 void add_structure(StructureFactor& structure, const DisksInPieces& disks, const Domain& box) {
   if (disks.size() == 0) return;
   Waves x(structure.along_x.size()), y(structure.along_y.size());
+  SharesOfPeriod of_width, of_height;
   disks.visit([&](const Disks& d) {
     for (const std::size_t i : by_id(d)) {
-      box.shear.acts() ? x.add_sheared(d.x[i], d.y[i], box) : x.add(d.x[i] / box.width);
-      y.add(d.y[i] / box.height);
+      box.shear.acts() ? x.add_sheared(d.x[i], d.y[i], box) : of_width.add(d.x[i] / box.width);
+      of_height.add(d.y[i] / box.height);
+      if (of_width.full()) x.take(of_width);
+      if (of_height.full()) y.take(of_height);
     }
   });
+  x.take(of_width);
+  y.take(of_height);
   x.add_to(structure.along_x, disks.size());
   y.add_to(structure.along_y, disks.size());
   ++structure.samples;
