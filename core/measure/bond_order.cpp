@@ -52,9 +52,9 @@ std::optional<std::vector<Vec2>> bond_orders_of_first(const Disks& d, std::size_
   std::atomic<bool> all_known = true;
   run((d.size() + block - 1) / block, [&](std::size_t b) {
     for (std::size_t k = b * block; k < std::min(d.size(), (b + 1) * block) && all_known; ++k) {
-      const std::size_t i = disks.in_order(k);
+      const std::size_t i = disks.disk(k);
       if (i >= first) continue;
-      const NearestNeighbours found = disks.of(i);
+      const NearestNeighbours found = disks.of(k);
       if (found.back().distance2 > known * known) {
         all_known = false;
         return;

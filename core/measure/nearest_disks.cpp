@@ -17,13 +17,15 @@ double outside(double c, double low, double high) {
 
 }  // namespace
 
-NearestDisks::NearestDisks(const Disks& disks, const Domain& box, const BlockRunner& run) : disks_(disks), box_(box) {
+NearestDisks::NearestDisks(const Disks& disks, const Domain& box, const BlockRunner& run) : box_(box) {
   std::size_t leaves = 1;
   while (leaves * disks_a_leaf < disks.size()) leaves *= 2;
   first_leaf_ = leaves - 1;
   nodes_.resize(2 * leaves - 1);
   centres_.reserve(disks.size());
-  for (std::size_t i = 0; i < disks.size(); ++i) centres_.push_back({disks.x[i], disks.y[i], i});
+  for (std::size_t i = 0; i < disks.size(); ++i) {
+    centres_.push_back({disks.x[i], disks.y[i], static_cast<std::uint32_t>(i), disks.id[i]});
+  }
   // Level by level, until there are enough nodes for any number of threads.
   std::vector<Span> spans{{0, disks.size()}};
   while (spans.size() < std::min(leaves, most_at_once)) {
@@ -67,15 +69,15 @@ void NearestDisks::divide(std::size_t node, Span span) {
 // One disk's, from one image of it after the other.
 class NearestDisks::Search {
  public:
-  Search(const NearestDisks& all, std::size_t i) : all_(all), i_(i) {
+  Search(const NearestDisks& all, const Centre& own) : all_(all), own_(own) {
     found_.fill({HUGE_VAL, std::numeric_limits<DiskId>::max(), {}});
   }
 
   NearestNeighbours find() {
     const Domain& box = all_.box_;
     const Node& root = all_.nodes_[0];
-    images(all_.disks_.y[i_], box.periodic_y() ? box.height : 0.0, root.low.y, root.high.y, [&](double y, double row) {
-      double x = all_.disks_.x[i_];
+    images(own_.y, box.periodic_y() ? box.height : 0.0, root.low.y, root.high.y, [&](double y, double row) {
+      double x = own_.x;
       if (box.shear.acts() && row != 0.0) x = wrap(x + row * box.shear.offset, box.width);
       images(x, box.periodic_x() ? box.width : 0.0, root.low.x, root.high.x, [&](double column, double) {
         look({column, y}, 0, 0, all_.centres_.size());
@@ -123,15 +125,15 @@ class NearestDisks::Search {
     for (std::size_t k = begin; k < end; ++k) {
       const Centre& c = all_.centres_[k];
       const double x = c.x - from.x, y = c.y - from.y;
-      if (x * x + y * y <= reach2_) meet(c.disk);
+      if (x * x + y * y <= reach2_) meet(c);
     }
   }
 
   // A disk may be met at several of its images: one of them is the nearest.
-  void meet(std::size_t j) {
-    if (j == i_) return;
-    const Vec2 to = all_.apart(i_, j);
-    const Neighbour met{to.x * to.x + to.y * to.y, all_.disks_.id[j], to};
+  void meet(const Centre& c) {
+    if (c.disk == own_.disk) return;
+    const Vec2 to = all_.apart(own_, c);
+    const Neighbour met{to.x * to.x + to.y * to.y, c.id, to};
     if (!(met < found_.back())) return;
     for (const Neighbour& n : found_) {
       if (n.id == met.id) return;
@@ -145,18 +147,18 @@ class NearestDisks::Search {
   }
 
   const NearestDisks& all_;
-  std::size_t i_;
+  const Centre& own_;
   NearestNeighbours found_;
   double reach2_ = HUGE_VAL;  // nothing further away is asked for; length^2
 };
 
-NearestNeighbours NearestDisks::of(std::size_t i) const {
-  return Search(*this, i).find();
+NearestNeighbours NearestDisks::of(std::size_t k) const {
+  return Search(*this, centres_[k]).find();
 }
 
-// To the nearest image of disk j; in a sheared box that may be one several rows of images away, where disks are few.
-Vec2 NearestDisks::apart(std::size_t i, std::size_t j) const {
-  const Vec2 raw{disks_.x[j] - disks_.x[i], disks_.y[j] - disks_.y[i]};
+// To the nearest image; in a sheared box that may be one several rows of images away, where disks are few.
+Vec2 NearestDisks::apart(const Centre& from, const Centre& to) const {
+  const Vec2 raw{to.x - from.x, to.y - from.y};
   return box_.shear.acts() ? nearest_of_rows(raw) : nearest_image(raw, box_);
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <tuple>
 #include <vector>
 
@@ -28,19 +29,20 @@ using NearestNeighbours =
 // many.
 class NearestDisks {
  public:
-  // Both must outlive it. Precondition: seven disks or more.
+  // The box must outlive it. Precondition: seven disks or more.
   NearestDisks(const Disks& disks, const Domain& box, const BlockRunner& run);
 
-  // Of disk i, by its distance from the nearest image of each of the others. O(log N).
-  NearestNeighbours of(std::size_t i) const;
-
   // The k-th of all disks, in an order in which those near each other come soon after each other.
-  std::size_t in_order(std::size_t k) const { return centres_[k].disk; }
+  std::size_t disk(std::size_t k) const { return centres_[k].disk; }
+
+  // Of that disk, by its distance from the nearest image of each of the others. O(log N).
+  NearestNeighbours of(std::size_t k) const;
 
  private:
   struct Centre {
     double x, y;  // length
-    std::size_t disk;
+    std::uint32_t disk;
+    DiskId id;
   };
   // Centres lie between low and high; length.
   struct Node {
@@ -53,10 +55,9 @@ class NearestDisks {
   };
   std::size_t halve(std::size_t node, Span span);
   void divide(std::size_t node, Span span);
-  Vec2 apart(std::size_t i, std::size_t j) const;
+  Vec2 apart(const Centre& from, const Centre& to) const;
   Vec2 nearest_of_rows(Vec2 raw) const;
 
-  const Disks& disks_;
   const Domain& box_;
   std::size_t first_leaf_ = 0;  // the nodes from here on have no nodes below them, those before two each, at 2 k + 1
   std::vector<Node> nodes_;
