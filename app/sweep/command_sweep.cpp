@@ -287,11 +287,11 @@ class Sweep {
     return process;
   }
 
-  // Removes what is not to be kept of a run that has ended. Returns why the run failed; empty if it did not, and if it
-  // was stopped.
+  // Removes what is not to be kept of a run that has ended. Returns why it failed; empty if not, and if we stopped it.
   std::string close(const SweepRun& run, int status) const {
     constexpr int stopped_early = 4;
-    if (status == stopped_early || status == 128 + SIGTERM) return "";  // the latter where it had not quite begun
+    const bool stopped = status == stopped_early || status == 128 + SIGTERM;  // the latter where it had not quite begun
+    if (stopped) return stop_wished() ? "" : "was stopped from outside; the same command goes on with it";
     if (status != 0) return last_words(run, status);
     fs::remove(log_of(run));
     if (against(run).empty()) return "";

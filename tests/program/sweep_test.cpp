@@ -168,6 +168,17 @@ TEST_F(SweepTest, GrowsWithoutLosingWhatIsThere) {
               HasSubstr("s: holds another sweep: the scene has changed since; "));
 }
 
+// As by a limit of processor time: the sweep said nothing, and ended as if all had run.
+TEST_F(SweepTest, ARunThatIsStoppedByAnotherIsNamed) {
+  const auto [status, text] = shell(
+      "{ " CAROM_PROGRAM
+      " sweep gas.toml -o s --seeds 1 --t-end 1e9 --set physics.restitution=1 --set "
+      "output.checkpoint=1000 & P=$!; until [ -e s/runs/0001/carom-unfinished/checkpoint.carom ] || ! kill -0 $P; "
+      "do sleep 0.01; done; kill -XCPU $(ps -o pid= --ppid $P); wait $P; }");
+  EXPECT_EQ(status, 1) << text;
+  EXPECT_THAT(text, HasSubstr("run 0001: was stopped from outside; the same command goes on with it"));
+}
+
 // A sweep that is killed takes its runs with it, and they leave checkpoints. Until then the folder is its own.
 TEST_F(SweepTest, ItsRunsEndWithIt) {
   const pid_t sweep = fork();
