@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bench/support/interleave.hpp"
 #include "tests/support/exact_support.hpp"
 
 namespace carom::exact_tests {
@@ -77,6 +78,14 @@ TEST(Yardstick, KeepsTheRateAndTheEnergy) {
   yardstick.write_to(disks);
   EXPECT_NEAR(energy_of(disks, 0.0).kinetic / energy_of(initial.disks, 0.0).kinetic, 1.0, 1e-12);
   EXPECT_LT(max_overlap(disks, scene.box), 1e-12);
+}
+
+// Of two rounds it was the slower one.
+TEST(Median, IsInTheMiddle) {
+  EXPECT_EQ(bench::median({3.0}), 3.0);
+  EXPECT_EQ(bench::median({4.0, 1.0}), 2.5);
+  EXPECT_EQ(bench::median({9.0, 1.0, 4.0}), 4.0);
+  EXPECT_EQ(bench::median({9.0, 2.0, 4.0, 1.0}), 3.0);
 }
 
 }  // namespace
