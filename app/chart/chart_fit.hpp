@@ -15,7 +15,7 @@ struct FitPoint {
 // value = coefficient dt^order
 struct OrderFit {
   double order = 0.0;
-  double order_error = 0.0;  // standard error, from the scatter about the line; 0 for two points
+  double order_error = 0.0;  // standard error, from the scatter about the line
   double coefficient = 0.0;
   std::size_t points = 0;
 };
