@@ -51,16 +51,32 @@ TEST(SideTime, OfASinkIsNowWhereADiskTouchesIt) {
 // axis, and into the image behind it, 2.5 away.
 TEST(TimeToContact, IsThatOfTheImageBehindTheNearest) {
   const Domain box = test::box_of(4.0, 4.0, true, true);
-  const auto time = [&](double dx, double dy, double vx, double vy) {
-    return collision_time({0.0, 0.5, 0.5, 0.0, 0.0}, {0.0, 0.5 + dx, 0.5 + dy, vx, vy}, 1.0, box, 0.0, 9.0);
+  const auto time = [&](double dx, double dy, double vx, double vy, double end = 9.0) {
+    return collision_time({0.0, 0.5, 0.5, 0.0, 0.0}, {0.0, 0.5 + dx, 0.5 + dy, vx, vy}, 1.0, box, 0.0, end);
   };
-  EXPECT_DOUBLE_EQ(time(1.5, 0.0, 1.0, 0.0), 1.5);
-  EXPECT_DOUBLE_EQ(time(-1.5, 0.0, -1.0, 0.0), 1.5);
-  EXPECT_DOUBLE_EQ(time(0.0, 1.5, 0.0, 1.0), 1.5);
-  EXPECT_DOUBLE_EQ(time(0.0, -1.5, 0.0, -1.0), 1.5);
+  for (const double end : {9.0, 1.5 + 1e-9}) {
+    EXPECT_DOUBLE_EQ(time(1.5, 0.0, 1.0, 0.0, end), 1.5);
+    EXPECT_DOUBLE_EQ(time(-1.5, 0.0, -1.0, 0.0, end), 1.5);
+    EXPECT_DOUBLE_EQ(time(0.0, 1.5, 0.0, 1.0, end), 1.5);
+    EXPECT_DOUBLE_EQ(time(0.0, -1.5, 0.0, -1.0, end), 1.5);
+  }
+  EXPECT_EQ(time(1.5, 0.0, 1.0, 0.0, 1.4), never);
   const double diagonal = 2.5 - std::sqrt(0.5);
   EXPECT_NEAR(time(1.5, 1.5, 1.0, 1.0), diagonal, 1e-14);
   EXPECT_NEAR(time(-1.5, 1.5, -1.0, 1.0), diagonal, 1e-14);
+  // Disks that overlap, as rounding may have it, meet now.
+  EXPECT_EQ(time_to_contact({0.9, 0.0, -1.0, 0.0}, 1.0), 0.0);
+  EXPECT_EQ(time_to_contact({0.9, 0.0, 1.0, 0.0}, 1.0), never);
+}
+
+// In a shear flow the images in the row of a disk itself are those of a box at rest.
+TEST(TimeToContact, InAFlowIsThatOfTheImageInItsRowToo) {
+  Domain box = test::box_of(4.0, 40.0, true, true);
+  box.shear = {0.25, 10.0, 0.75};
+  for (const double sign : {1.0, -1.0}) {
+    const PathSegment q{0.0, 2.0 + 1.5 * sign, 20.0, sign, 0.0};
+    EXPECT_DOUBLE_EQ(collision_time({0.0, 2.0, 20.0, 0.0, 0.0}, q, 1.0, box, 0.0, 1.75), 1.5);
+  }
 }
 
 // Images above slide by the jump: the one above the nearest is met where it will be.
@@ -68,12 +84,12 @@ TEST(TimeToContact, InAFlowIsThatOfTheImageThatMoves) {
   Domain box = test::box_of(40.0, 4.0, true, true);
   box.shear.rate = 0.25;
   box.shear.jump = 1.0;
-  box.shear.offset = -1.5;
+  box.shear.offset = -2.0;  // -1.5 where the paths begin
   // Up by 2.5 along y in time 1.5 until contact; the image below comes from -offset, at -jump, and is met head on.
-  const double t = collision_time({0.0, 10.0, 0.5, 0.0, 0.0}, {0.0, 8.5, 2.0, 1.0, 1.0}, 1.0, box, 0.0, 9.0);
-  EXPECT_DOUBLE_EQ(t, 1.5);
-  const double back = collision_time({0.0, 10.0, 3.5, 0.0, 0.0}, {0.0, 11.5, 2.0, -1.0, -1.0}, 1.0, box, 0.0, 9.0);
-  EXPECT_DOUBLE_EQ(back, 1.5);
+  const double t = collision_time({0.5, 10.0, 0.5, 0.0, 0.0}, {0.5, 8.5, 2.0, 1.0, 1.0}, 1.0, box, 0.0, 9.0);
+  EXPECT_DOUBLE_EQ(t, 2.0);
+  const double back = collision_time({0.5, 10.0, 3.5, 0.0, 0.0}, {0.5, 11.5, 2.0, -1.0, -1.0}, 1.0, box, 0.0, 9.0);
+  EXPECT_DOUBLE_EQ(back, 2.0);
 }
 
 }  // namespace

@@ -151,8 +151,75 @@ TEST(TimeToObstacle, IsThatOfTheFirstContact) {
     if (found > span) continue;
     ++contacts;
     ASSERT_NEAR(gap_at(found), 0.0, 1e-11) << k;
+    ASSERT_EQ(time_to_obstacle(floor_piece, {p.x, p.y}, p, r, g, found * (1.0 + 1e-9)), found) << k;
   }
   EXPECT_GT(contacts, 800);
+}
+
+// In any direction of gravity: between the turns, where its slope is 0, the approach to something round is monotone.
+TEST(FallPast, TurnsWhereTheApproachHasNoSlope) {
+  test::Draws draws(8);
+  int turns = 0;
+  for (int k = 0; k < 1000; ++k) {
+    const FallPast fall{draws.in(-5.0, 5.0),
+                        draws.in(-5.0, 5.0),
+                        draws.in(-1.0, 1.0),
+                        draws.in(-1.0, 1.0),
+                        {draws.in(-2.0, 2.0), draws.in(-2.0, 2.0)},
+                        1.0};
+    const ApproachTurns found = turns_of(fall);
+    if (!found.real) {
+      for (int j = -100; j <= 100; ++j) ASSERT_GE(fall.approach_slope(0.2 * j), -1e-12) << k;
+      continue;
+    }
+    ++turns;
+    for (const double t : found.time) ASSERT_NEAR(fall.approach_slope(t), 0.0, 1e-9 * (1.0 + t * t)) << k;
+  }
+  EXPECT_GT(turns, 300);
+}
+
+// A wall that moves steadily, along a parabola or as a sine is met first where its gap is 0, though it comes to a disk
+// that hardly moves; also within a time that is hardly longer.
+TEST(TimeToMovingWall, IsThatOfTheFirstContact) {
+  constexpr double r = 0.5, span = 2.5;
+  test::Draws draws(7);
+  const SideMotion paces[] = {{SideMotion::Kind::steady, 0.0, 1.0},
+                              {SideMotion::Kind::parabolas, 0.0, 0.0, 1.0, 8.0},
+                              {SideMotion::Kind::sine, 0.0, 0.0, 1.0, 3.0}};
+  Obstacle wall = floor_piece;
+  wall.moves = true;
+  for (const SideMotion& pace : paces) {
+    int contacts = 0;
+    for (int m = 0; m < 8; ++m) {
+      Domain box{40.0, 40.0};
+      const WallMotion motion{pace, {draws.in(-1.5, 1.5), draws.in(-1.5, 1.5)}};
+      const ObstacleCells cells({wall}, {motion}, box);
+      box.obstacles = &cells;
+      for (int k = 0; k < 150; ++k) {
+        const Gravity g(draws.in(-0.5, 0.5), draws.in(-0.5, 0.5));
+        const PathSegment p{draws.in(0.0, 1.0), draws.in(0.0, 10.0), draws.in(2.0, 8.0), draws.in(-0.3, 0.3),
+                            draws.in(-0.3, 0.3)};
+        const auto gap_at = [&](double t) {
+          const double inset = pace.at(p.start + t).inset;
+          const Vec2 at{p.x + p.vx * t - 0.5 * g.left * t * t - motion.along.x * inset - wall.x,
+                        p.y + p.vy * t - 0.5 * g.down * t * t - motion.along.y * inset - wall.y};
+          return shortest_line(wall, at).distance - r;
+        };
+        if (gap_at(0.0) < 1e-3) continue;
+        const auto time = [&](double longest) {
+          return time_to_moving_wall(wall, {p.x - wall.x, p.y - wall.y}, p, r, box, g, longest);
+        };
+        const double found = time(span);
+        const double until = std::min(found, span);
+        for (int j = 0; j < 50; ++j) ASSERT_GT(gap_at(until * j / 50.0), -1e-11) << m << " " << k << ", " << j;
+        if (found > span) continue;
+        ++contacts;
+        ASSERT_NEAR(gap_at(found), 0.0, 1e-10) << m << " " << k;
+        ASSERT_EQ(time(found * (1.0 + 1e-9)), found) << m << " " << k;
+      }
+    }
+    EXPECT_GT(contacts, 100);
+  }
 }
 
 // Where the end of one wall lies on the side of another, a disk there touches one of them: the side. Were each hidden
