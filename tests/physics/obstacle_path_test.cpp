@@ -178,6 +178,43 @@ TEST(FallPast, TurnsWhereTheApproachHasNoSlope) {
   EXPECT_GT(turns, 300);
 }
 
+// A disk that touches what stands in a periodic box, or a wall that has gone round it many times, touches it once,
+// wherever its image lies, as it touches what was put there.
+TEST(ObstacleGap, OfImagesAndOfWallsThatWentRoundIsSeenOnce) {
+  test::Draws draws(9);
+  for (const int kind : {0, 1, 2}) {  // a fixed disk, an inner wall, one that moves
+    Domain box = test::box_of(10.0, 12.0, true, true);
+    Obstacle o{9.0, 11.0, 0.0, 0.0, 1.5, 1.0, 0, ObstacleKind::disk};
+    if (kind > 0) o = {7.0, 11.5, 3.0, -1.0, 0.0, 1.0, 0, ObstacleKind::wall};
+    o.moves = kind == 2;
+    ObstacleCells cells({o}, {WallMotion{{SideMotion::Kind::steady, 0.0, 1.0}, {1.0, -1.0}}}, box);
+    box.obstacles = &cells;
+    Obstacle there = o;
+    if (kind == 2) {
+      cells.follow(37.0, 37.0);
+      box.inner_walls_move = true;
+      box.move_walls(37.0);
+      there = {4.0, 10.5, 3.0, -1.0, 0.0, 1.0, 0, ObstacleKind::wall};  // 37 on: 40 less 3, 36 and 1
+    }
+    int touched = 0;
+    for (int k = 0; k < 2000; ++k) {
+      const double x = draws.in(0.0, 10.0), y = draws.in(0.0, 12.0), r = 0.75;
+      const ObstacleGap placed_there = gap_to(there, x, y, r, box);
+      EXPECT_NEAR(gap_to(o, x, y, r, box).beyond, placed_there.beyond, 1e-12) << kind;
+      if (std::abs(placed_there.beyond) < 1e-9) continue;
+      int seen = 0;
+      for_each_obstacle_touched(box, x, y, r, [&](std::uint32_t, const ObstacleGap& gap) {
+        ++seen;
+        EXPECT_NEAR(gap.nx, placed_there.nx, 1e-9);
+        EXPECT_NEAR(gap.ny, placed_there.ny, 1e-9);
+      });
+      EXPECT_EQ(seen, placed_there.beyond > 0.0 ? 1 : 0) << kind << " at " << x << ", " << y;
+      touched += seen;
+    }
+    EXPECT_GT(touched, 100);
+  }
+}
+
 // A wall that moves steadily, along a parabola or as a sine is met first where its gap is 0, though it comes to a disk
 // that hardly moves; also within a time that is hardly longer.
 TEST(TimeToMovingWall, IsThatOfTheFirstContact) {
@@ -242,6 +279,26 @@ TEST(Joint, TheSideIsTouchedAndTheEndIsHidden) {
   const ObstacleGap second_end = gap_to(on_the_way, 8.0, 5.9, r, box);
   EXPECT_TRUE(hides(first_end, true, second_end, r, box));
   EXPECT_FALSE(hides(second_end, false, first_end, r, box));
+}
+
+// Ends and sides that a disk touches in other points are contacts of their own: beside it and below it, or two ends one
+// above the other.
+TEST(Joint, OtherPointsAreOtherContacts) {
+  const auto wall = [](double x, double y, double dx, double dy) {
+    return Obstacle{x, y, dx, dy, 0.0, 1.0, 0, ObstacleKind::wall};
+  };
+  for (const auto& pair : {std::vector<Obstacle>{wall(2.0, 5.0, 6.0, 0.0), wall(6.0, 6.0, 3.0, 0.0)},
+                           std::vector<Obstacle>{wall(5.6, 6.8, 2.0, 2.0), wall(5.6, 5.2, 2.0, -2.0)}}) {
+    Domain box = test::box_of(20.0, 20.0);
+    const ObstacleCells cells(pair, {}, box);
+    box.obstacles = &cells;
+    int seen = 0;
+    for_each_solid_touched(box, 5.0, 6.0, 1.0 + 1e-9, [&](std::uint32_t k, const ObstacleGap& gap) {
+      ++seen;
+      EXPECT_FALSE(is_hidden(box, k, gap, 5.0, 6.0, 1.0 + 1e-9)) << k;
+    });
+    EXPECT_EQ(seen, 2);
+  }
 }
 
 // Walls that move apart from each other are two contacts in one place: each gives a disk its own velocity.
