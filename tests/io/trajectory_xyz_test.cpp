@@ -229,6 +229,22 @@ TEST_F(TrajectoryXyz, DisksComeInOrderOfIdHoweverTheyStand) {
   EXPECT_EQ(error(), path_ + ":5: disk 5 stands twice in its frame");
 }
 
+// Rounds go with their disks, of each frame its own.
+TEST_F(TrajectoryXyz, RoundsComeInOrderOfIdToo) {
+  const std::string head =
+      "2\nLattice=\"8 0 0 0 6 0 0 0 1\" pbc=\"T T F\" "
+      "Properties=pos:R:2:velo:R:2:radius:R:1:mass:R:1:id:I:1:map_shift:I:2 Time=0\n";
+  write_text(head + "1 2 0 0 1 1 5 3 -4\n3 4 0 0 1 1 2 -1 2\n" + head + "1 2 0 0 1 1 5 4 -5\n3 4 0 0 1 1 2 -2 3\n");
+  XyzReader reader(path_);
+  XyzFrame frame;
+  for (const int k : {0, 1}) {
+    ASSERT_TRUE(reader.read(frame));
+    EXPECT_THAT(frame.disks.id, ::testing::ElementsAre(2U, 5U));
+    EXPECT_THAT(frame.image_x, ::testing::ElementsAre(-1 - k, 3 + k));
+    EXPECT_THAT(frame.image_y, ::testing::ElementsAre(2 + k, -4 - k));
+  }
+}
+
 TEST_F(TrajectoryXyz, ValuesThatNoDiskHasAreRefused) {
   const auto said = [&](const std::string& disk) {
     write_text(head_of(1, "Lattice=\"9 0 0 0 8 0 0 0 1\" pbc=\"F F F\" Time=0\n" + disk + "\n"));
