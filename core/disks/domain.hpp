@@ -175,19 +175,24 @@ double wrap_far(double c, double period);
   return c < period ? c : wrap_far(c, period);
 }
 
-// A place brought back into a sheared box whose images above are displaced by offset; it has left by less than a
-// quarter of a period. Returns how many boxes further up it is now, -1, 0 or 1: its velocity along x changes by so many
-// jumps of the shear.
-inline int wrap_sheared(double& x, double& y, double offset, const Domain& box) {
-  int rows = 0;
-  if (y < 0.0 && y + box.height < box.height) {
-    rows = 1;
+// For wrap_sheared(), likewise: through as many boxes as the place is away.
+double wrap_sheared_far(double& x, double& y, double offset, const Domain& box);
+
+// A place brought back into a sheared box whose images above are displaced by offset. Returns how many boxes further up
+// it is now, a whole number, -1, 0 or 1 unless a step is far too long: its velocity along x changes by so many jumps of
+// the shear.
+inline double wrap_sheared(double& x, double& y, double offset, const Domain& box) {
+  double rows = 0.0;
+  if (y < -box.height || y >= box.height + box.height) [[unlikely]] {
+    rows = wrap_sheared_far(x, y, offset, box);
+  } else if (y < 0.0 && y + box.height < box.height) {
+    rows = 1.0;
     y += box.height;
     x += offset;
   } else if (y < 0.0) {
     y = 0.0;  // closer to the side than y can tell
   } else if (y >= box.height) {
-    rows = -1;
+    rows = -1.0;
     y -= box.height;
     x -= offset;
   }

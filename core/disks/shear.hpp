@@ -20,11 +20,11 @@ struct Shear {
   // as t itself, however many widths the images above have gone.
   double offset_at(double t, double width) const { return jump * std::remainder(t, width / std::abs(jump)); }
 
-  // A disk of this mass becomes its image so many boxes above (-1, 0 or 1). Returns the energy that it gains: the work
-  // of the shear.
-  double jump_rows(double mass, double& vx, int rows) const {
-    if (rows == 0) return 0.0;
-    const double change = rows > 0 ? jump : -jump;
+  // A disk of this mass becomes its image so many boxes above, a whole number. Returns the energy that it gains: the
+  // work of the shear.
+  double jump_rows(double mass, double& vx, double rows) const {
+    if (rows == 0.0) return 0.0;
+    const double change = rows * jump;
     const double work = mass * change * (vx + 0.5 * change);
     vx += change;
     return work;

@@ -131,7 +131,7 @@ TEST(WrapCoordinate, HalfOpenInterval) {
 // What is below 0 by less than the height can tell is at 0, and has crossed nothing.
 TEST(WrapSheared, MovesAlongByTheOffset) {
   const Domain box = box_of(20.0, 10.0, true, true);
-  const auto expect = [&](Vec2 from, Vec2 to, int rows) {
+  const auto expect = [&](Vec2 from, Vec2 to, double rows) {
     EXPECT_EQ(wrap_sheared(from.x, from.y, 3.0, box), rows) << from.y << " to " << to.y;
     EXPECT_EQ(from, to);
   };
@@ -141,6 +141,11 @@ TEST(WrapSheared, MovesAlongByTheOffset) {
   expect({19.0, -0.5}, {2.0, 9.5}, 1);
   expect({5.0, -1e-20}, {5.0, 0.0}, 0);
   expect({-1.0, 4.0}, {19.0, 4.0}, 0);
+  // Further than a box, where a step is far too long.
+  expect({5.0, -10.0}, {8.0, 0.0}, 1);
+  expect({5.0, 20.0}, {19.0, 0.0}, -2);
+  expect({5.0, 47.5}, {13.0, 7.5}, -4);
+  expect({5.0, -10.5}, {11.0, 9.5}, 2);
 }
 
 // wall_restitution is that of sides which are no walls, too, where nothing bounces.
