@@ -8,6 +8,8 @@
 
 #include "core/disks/domain.hpp"
 #include "parallel/cells/tiled_grid.hpp"
+#include "parallel/exact/listed_box.hpp"
+#include "parallel/exact/most_listed.hpp"
 #include "parallel/threads/executor.hpp"
 
 namespace carom {
@@ -70,6 +72,10 @@ inline std::size_t most_regions(std::size_t disks, const Domain& box) {
 // false where a window is to be run again without regions.
 inline ListLayout choose_layout(std::size_t disks, const Domain& box, bool regions_allowed, const Executor& executor) {
   if (disks <= all_pairs_up_to) return {.mode = EngineMode::all_pairs};
+  if (!can_list_in(box)) {
+    check_all_listed(disks);
+    return {.mode = EngineMode::all_pairs};
+  }
   // Where work is cut into smaller blocks, regions are wanted for fewer disks too, and more than one on one thread.
   const bool is_cut = executor.grain(single_queue_up_to) < single_queue_up_to;
   const std::size_t single = is_cut                    ? executor.grain(single_queue_of_cut_work_up_to)

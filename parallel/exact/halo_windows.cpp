@@ -75,7 +75,7 @@ std::size_t HaloWindows::most_parts() const {
   return std::min(std::max<std::size_t>(wanted, is_cut ? 2 : 1), fitting(least_width));
 }
 
-// Not where disks come and go, nor in a sheared box, whose images move.
+// Not where disks come and go or cannot be listed with a skin, nor in a sheared box, whose images move.
 bool HaloWindows::are_wanted() {
   if (windows_without_ > 0) {
     --windows_without_;
@@ -83,8 +83,8 @@ bool HaloWindows::are_wanted() {
   }
   if (known_ == Known::nothing) spacing_ = mean_spacing();
   const bool keeps_disks = scene_.sources.empty() && !has_sinks(scene_);
-  return keeps_disks && !scene_.box.shear.acts() && state_.disks.size() >= executor_.grain(least_disks) &&
-         most_parts() > 1;
+  return keeps_disks && !scene_.box.shear.acts() && can_list_in(scene_.box) &&
+         state_.disks.size() >= executor_.grain(least_disks) && most_parts() > 1;
 }
 
 void HaloWindows::forget(Known left) {

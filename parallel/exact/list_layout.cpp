@@ -25,9 +25,6 @@ double cutoff_in_spacings(double packing_fraction) {
 constexpr double most_crowding_of_many = 8.0;
 // In very dense systems the skin is at least this share of a mean diameter.
 constexpr double least_skin = 0.08;
-// The most, of a period, so that the nearest image of its listed position is the one that a disk is within the skin of.
-constexpr double most_skin = 0.37;
-constexpr double most_skin_in_flow = 0.15;
 // The least skin in units of listed positions, so that their rounding does not matter.
 constexpr double least_units = 1024.0;
 // Disks of different sizes are sorted by cells of about half as many.
@@ -61,9 +58,7 @@ void NeighbourLists::choose_skin(const Disks& d, const ListLayout& layout, doubl
   const double cutoff = mode_ == EngineMode::regions ? region_cutoff : cutoff_in_spacings(packing_fraction);
   skin_ = std::max({0.5 * (cutoff * std::sqrt(space / (crowded * n)) - 2.0 * radius), least_skin * 2.0 * radius,
                     least_units * std::max(listed_box_.unit.x, listed_box_.unit.y)});
-  const double most = flow_.acts ? most_skin_in_flow : most_skin;
-  if (box_.periodic_x()) skin_ = std::min(skin_, most * box_.width);
-  if (box_.periodic_y()) skin_ = std::min(skin_, most * box_.height);
+  skin_ = std::min(skin_, largest_skin(box_));
   growth_ = layout.growth <= most_growth * skin_ ? layout.growth : 0.0;
   near_border_ = relist_distance_of(layout.relist_share * (skin_ - growth_));
   elsewhere_ = relist_distance_of(skin_ - growth_);

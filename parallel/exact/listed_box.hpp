@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "core/disks/domain.hpp"
@@ -57,5 +58,27 @@ struct ListedBox {
  private:
   static constexpr double two_to_31 = 2147483648.0;
 };
+
+// The most of a period that a skin takes, so that the nearest image of its listed position is the one that a disk is
+// within the skin of.
+inline constexpr double most_skin = 0.37;
+inline constexpr double most_skin_in_flow = 0.15;
+
+// The largest skin that the periods leave room for; length, infinite where there is none.
+inline double largest_skin(const Domain& box) {
+  const double most = box.shear.acts() ? most_skin_in_flow : most_skin;
+  double skin = HUGE_VAL;
+  if (box.periodic_x()) skin = std::min(skin, most * box.width);
+  if (box.periodic_y()) skin = std::min(skin, most * box.height);
+  return skin;
+}
+
+// Can disks be listed with a skin? Not in a box some ten million times as long as its period across: a disk would be
+// out of so small a skin, by the rounding of its listed position, as soon as it is listed.
+inline bool can_list_in(const Domain& box) {
+  constexpr double fewest_units = 64.0;
+  const ListedBox listed(box);
+  return largest_skin(box) >= fewest_units * std::max(listed.unit.x, listed.unit.y);
+}
 
 }  // namespace carom

@@ -20,4 +20,15 @@ inline void check_listed(std::size_t disks) {
                  std::to_string(most_listed_disks) + "; run it on several ranks, or by method \"pairwise\"");
 }
 
+// Each of so many disks lists all others in half a gigabyte.
+inline constexpr std::size_t most_of_all_pairs = 10'000;
+
+// Throws RunError where there are more, in a box in which disks cannot be listed with a skin.
+inline void check_all_listed(std::size_t disks) {
+  if (disks <= most_of_all_pairs) return;
+  throw RunError("exact: in a box that is so much longer than its period across at most " +
+                 std::to_string(most_of_all_pairs) + " disks can be listed, not " + std::to_string(disks) +
+                 "; make it less long, or run it by method \"pairwise\"");
+}
+
 }  // namespace carom

@@ -12,6 +12,7 @@
 #include "core/disks/disk_columns.hpp"
 #include "core/step/source.hpp"
 #include "parallel/cells/cell_grid.hpp"
+#include "parallel/exact/listed_box.hpp"
 #include "parallel/ranks/message.hpp"
 
 namespace carom {
@@ -23,7 +24,9 @@ constexpr std::size_t rows_counted = 4096;
 
 // What of the scene slabs do not know; empty: they know all of it.
 std::string unknown_to_slabs(const Scene& scene) {
-  return scene.run.method == Method::exact && scene.box.shear.acts() ? "a shear flow" : "";
+  if (scene.run.method != Method::exact) return "";
+  if (scene.box.shear.acts()) return "a shear flow";
+  return can_list_in(scene.box) ? "" : "a box so much longer than its period across";
 }
 
 double largest_radius_ever(const Scene& scene, double largest) {

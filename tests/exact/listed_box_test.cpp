@@ -4,8 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
+#include "core/base/check.hpp"
+#include "core/disks/state_hash.hpp"
+#include "parallel/simulation.hpp"
 #include "tests/support/disks_by_hand.hpp"
+#include "tests/support/draws.hpp"
 
 namespace carom {
 namespace {
@@ -55,6 +60,50 @@ TEST(ListedBox, DepthIsThatOfThePlaceWhereADiskIsListed) {
   EXPECT_EQ(box.depth_beyond_border({23.0, 11.0}, {3.0, 9.0}, 3.5).x, 0.0) << "near the border";
   EXPECT_EQ(box.depth_beyond_border({3.0, 5.0}, {3.0, 5.0}, 2.0).x, 0.0) << "in the box";
   EXPECT_EQ(box.depth_beyond_border({23.0, 11.0}, {3.0, 9.0}, 0.5).y, 0.0) << "walls are no border";
+}
+
+// A box of width 1, periodic across, in which pairs of disks lie far from each other.
+Scene long_scene(double height, bool periodic_y) {
+  Scene scene = test::scene_of(Method::exact, 1.0, height, 0.0, 5.0);
+  test::set_sides(scene.box, SideKind::periodic, periodic_y ? SideKind::periodic : SideKind::wall);
+  return scene;
+}
+
+State pairs_in(const Scene& scene, int pairs) {
+  test::Draws draws(3);
+  std::vector<Disk> list;
+  for (int k = 0; k < 2 * pairs; ++k) {
+    const double y = (k / 2 + 0.5) * scene.box.height / pairs + (k % 2) * 0.3;
+    list.push_back({draws.in(0.2, 0.7), y, draws.in(-1.0, 1.0), draws.in(-1.0, 1.0), 0.1, 1.0});
+  }
+  return test::state_of(scene, list);
+}
+
+// A disk that is out of its skin as soon as it is listed would be listed again for ever.
+TEST(ListedBox, HasRoomForASkinUnlessItIsFarLongerThanItsPeriod) {
+  EXPECT_TRUE(can_list_in(test::box_of(1.0, 1e10)));
+  EXPECT_TRUE(can_list_in(test::box_of(1.0, 1e10, false, true)));
+  for (const bool periodic_y : {false, true}) {
+    for (const double height : {1e6, 1e8, 1e11}) {
+      const Scene scene = long_scene(height, periodic_y);
+      EXPECT_EQ(can_list_in(scene.box), height < 1e7);
+      const State start = pairs_in(scene, 30);
+      const auto reference = make_reference_engine(scene, start);
+      const auto one = make_parallel_engine(scene, start, {1});
+      const auto three = make_parallel_engine(scene, start, {3, 256});
+      for (Engine* engine : {reference.get(), one.get(), three.get()}) {
+        while (engine->state().time < scene.run.t_end) engine->step();
+        EXPECT_EQ(state_hash(engine->state().disks), state_hash(reference->state().disks)) << "height " << height;
+      }
+      EXPECT_GT(reference->state().counters.collisions, 5U);
+    }
+  }
+}
+
+TEST(ListedBox, TakesNoMoreDisksWithoutASkinThanMemoryHoldsPairs) {
+  const Scene scene = long_scene(1e10, false);
+  const auto engine = make_parallel_engine(scene, pairs_in(scene, 5001), {1});
+  EXPECT_THROW(engine->step(), RunError);
 }
 
 }  // namespace
