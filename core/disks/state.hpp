@@ -83,7 +83,7 @@ struct State {
   DiskId next_id = 0;
   Count intervals = 0;               // Brownian intervals of dt begun (rollback, whose frames are shorter than dt),
                                      // or kicks of a thermostat
-  bool step_begun = false;           // pairwise: the coming step failed after its sources and Brownian draws
+  bool step_begun = false;           // the coming step has had its sources (pairwise: and draws), but was not made
   std::vector<SourceState> sources;  // one per scene source
   SinkCounts taken;                  // by each sink, together Counters::removed; an entry for each, or none without
   std::vector<ContactLoad> loads;    // in order of (id1, id2); empty unless the scene settles

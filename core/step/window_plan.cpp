@@ -131,6 +131,7 @@ void finish_window(State& state, std::size_t disks, const WindowPlan& plan, cons
   const double absence = tally.absence.empty() ? 0.0 : tally.absence[0].value();
   count_step(c, plan.length * static_cast<double>(plan.disks) - absence);
   state.time = plan.end;
+  state.step_begun = false;
   const double meant = plan.meant / scale;
   const double next = next_window(meant, plan.length / scale, tally.collisions + tally.wall_collisions, disks);
   const double least = plan.least / scale;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 
 #include "core/step/source.hpp"
 #include "core/step/step_clock.hpp"
@@ -69,7 +70,7 @@ double next_cut(const Scene& scene, const State& state) {
 }
 
 void emit_at_window_start(const Scene& scene, State& state, const std::function<bool(const Disk&)>& room) {
-  if (scene.sources.empty()) return;
+  if (scene.sources.empty() || std::exchange(state.step_begun, true)) return;
   const Domain box = box_at(scene.box, state.time);
   for (std::size_t s = 0; s < scene.sources.size(); ++s) {
     if (has_more(scene.sources[s], state.sources[s])) emit_now(scene, box, state, s, room);

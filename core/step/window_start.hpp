@@ -17,7 +17,8 @@ double next_cut(const Scene& scene, const State& state);
 // Every source whose emission time is state.time, but for rounding, emits what is due, each disk at the first of 32
 // places that has room. What finds none waits, and is tried again: at the source's emission times, and while fewer than
 // eight wait at a quarter, a half and three quarters of the time in between. Nothing here depends on where other
-// windows end.
+// windows end. Once only before a window (State::step_begun), even where that is begun again: of several sources, the
+// first would try the id that a later one has given away with the next one's places.
 void emit_at_window_start(const Scene& scene, State& state, const std::function<bool(const Disk&)>& room);
 
 // Is a Brownian interval due to begin at state.time?

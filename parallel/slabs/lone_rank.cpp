@@ -22,11 +22,12 @@ struct Progress {
   ValidityCounts validity;
   Count intervals;
   DiskId next_id;
+  bool step_begun;
 };
 
 void put_progress(Bytes& message, const State& state) {
-  put(message,
-      Progress{state.time, state.window, state.counters, state.stall, state.validity, state.intervals, state.next_id});
+  put(message, Progress{state.time, state.window, state.counters, state.stall, state.validity, state.intervals,
+                        state.next_id, state.step_begun});
   put_all(message, state.sources);
   put_all(message, state.taken);
 }
@@ -40,6 +41,7 @@ void take_progress(MessageReader& message, State& state) {
   state.validity = p.validity;
   state.intervals = p.intervals;
   state.next_id = p.next_id;
+  state.step_begun = p.step_begun;
   state.sources = message.get_all<SourceState>();
   state.taken = message.get_all<Count>();
 }

@@ -93,6 +93,38 @@ TEST(Newcomers, HaveTheReferencesBitsWhereTheGasHasOtherRadii) {
   }
 }
 
+// A source whose corner is full, and one that has room: a disk of the second one gets the id that the first has tried.
+// Where a window is given up, and begun again by this engine or another one, the first tries no other id at that time.
+TEST(Newcomers, ComeOnceIntoAWindowThatIsBegunTwice) {
+  const Scene scene = scene_with({source_of(20.0, {1.0, 1.0}, {5.0, 5.0}, constant(0.5)),
+                                  source_of(20.0, {8.0, 8.0}, {59.0, 39.0}, constant(0.5))});
+  const auto undisturbed = make_reference_engine(scene, test::state_of(scene, {}));
+  State now = test::state_of(scene, {});
+  int given_up = 0;
+  while (undisturbed->state().time < scene.run.t_end) {
+    undisturbed->step();
+    const State& right = undisturbed->state();
+    // A new engine asks at its first event.
+    const auto engine = make_parallel_engine(scene, now, {1});
+    engine->set_watch([] { return false; });
+    engine->step();
+    engine->set_watch({});
+    if (engine->state().time < right.time) {
+      ++given_up;
+      const auto other = make_reference_engine(scene, engine->state());
+      other->step();
+      ASSERT_EQ(state_hash(other->state().disks), state_hash(right.disks)) << "at t = " << right.time;
+      engine->step();
+    }
+    now = engine->state();
+    ASSERT_EQ(now.time, right.time);
+    ASSERT_EQ(state_hash(now.disks), state_hash(right.disks)) << "at t = " << right.time;
+    ASSERT_EQ(now.counters.waiting, right.counters.waiting);
+  }
+  EXPECT_GT(given_up, 100);
+  EXPECT_GT(undisturbed->state().counters.waiting, 0U);
+}
+
 TEST(Newcomers, HaveTheReferencesBitsBesideASinkAndUnderGravity) {
   Scene scene = scene_with({source_of(30.0, {1.0, 20.0}, {59.0, 39.0}, constant(0.5))});
   scene.physics.gravity = Gravity(0.0, 0.5);

@@ -167,6 +167,24 @@ TEST(LongSlabExact, HasTheBitsOfABoxThatSourcesFill) {
   EXPECT_EQ(counters.emitted, 900U);
 }
 
+// Slabs are too thin, which is asked now and then, when the sources have sent in what is due: one rank then runs the
+// window without asking them again. Of the two, the first has a full corner.
+TEST(SlabExact, AsksSourcesOnceWhereOneRankRunsTheWindow) {
+  const Scene scene = parse_scene(
+      "seed = 4\n[box]\nwidth = 30.0\nheight = 30.0\n[[disks]]\ncount = 12\npositions = \"square\"\nvelocities = { "
+      "maxwell = 0.3 }\nradius = 0.5\nmass = 1.0\n"
+      "[[sources]]\nregion = [1.0, 1.0, 6.0, 6.0]\nrate = 4.0\nradius = 0.5\nmass = 1.0\nvelocities = { maxwell = 0.1 "
+      "}\n"
+      "[[sources]]\nregion = [8.0, 8.0, 29.0, 29.0]\nrate = 4.0\nradius = 0.4\nmass = 1.0\nvelocities = { maxwell = "
+      "0.1 }\n[run]\nmethod = \"exact\"\nt_end = 25.0\n",
+      "scene", "");
+  std::size_t thin = 0;
+  const Counters counters =
+      expect_bits(scene, {2, 3}, RankThreads::alternate, [&](const SlabTrace& t) { thin += t.thin; }).counters;
+  EXPECT_GT(thin, 0U);
+  EXPECT_GT(counters.waiting, 0U);
+}
+
 // Brownian disks that cross a sink unseen leave at an interval's start.
 TEST(SlabExact, HasTheBitsOfBrownianDisksThatSinksTake) {
   TallBox tall{.sides = "sink", .t_end = 3.0, .step = 0.2};
