@@ -14,7 +14,7 @@ namespace carom {
 
 namespace {
 
-// What all ranks know of a state.
+// What all ranks know of a state. Into an empty box the first newcomer brings the radius and the mass that disks share.
 struct Progress {
   double time, window;
   Counters counters;
@@ -23,11 +23,12 @@ struct Progress {
   Count intervals;
   DiskId next_id;
   bool step_begun;
+  double common_radius, common_mass;
 };
 
 void put_progress(Bytes& message, const State& state) {
   put(message, Progress{state.time, state.window, state.counters, state.stall, state.validity, state.intervals,
-                        state.next_id, state.step_begun});
+                        state.next_id, state.step_begun, state.disks.common_radius, state.disks.common_mass});
   put_all(message, state.sources);
   put_all(message, state.taken);
 }
@@ -42,6 +43,8 @@ void take_progress(MessageReader& message, State& state) {
   state.intervals = p.intervals;
   state.next_id = p.next_id;
   state.step_begun = p.step_begun;
+  state.disks.common_radius = p.common_radius;
+  state.disks.common_mass = p.common_mass;
   state.sources = message.get_all<SourceState>();
   state.taken = message.get_all<Count>();
 }

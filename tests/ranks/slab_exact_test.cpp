@@ -185,6 +185,30 @@ TEST(SlabExact, AsksSourcesOnceWhereOneRankRunsTheWindow) {
   EXPECT_GT(counters.waiting, 0U);
 }
 
+// An empty box has no radius that its disks share, as the first source draws them. While one rank runs it, the other
+// sources' disks bring one, and all ranks have to know it when slabs go on.
+TEST(SlabExact, KnowsTheRadiusThatNewcomersBringIntoAnEmptyBox) {
+  std::string text =
+      "[box]\nwidth = 12.0\nheight = 300.0\n[[sources]]\nregion = [1.0, 5.0, 11.0, 295.0]\nrate = 0.001\nradius = { "
+      "uniform = [0.1, 0.2] }\nmass = 2.0\nvelocities = { maxwell = 1.0 }\n";
+  for (int k = 0; k < 8; ++k) {
+    text += fmt::format(
+        "[[sources]]\nregion = [1.0, {}, 11.0, {}]\nrate = 300.0\nradius = 0.3\nmass = 2.0\nvelocities = {{ maxwell = "
+        "1.0 }}\nlimit = 60\n",
+        2 + 37 * k, 36 + 37 * k);
+  }
+  const Scene scene = parse_scene(text + "[run]\nmethod = \"exact\"\nt_end = 30.0\n", "scene", "");
+  run_on_local_ranks(2, [&](Ranks& ranks) {
+    const auto engine = make_slab_exact(scene, initial_state(scene), {1}, ranks);
+    for (int step = 0; step < 3; ++step) engine->step();
+    EXPECT_EQ(engine->progress().disks.common_radius, 0.3);
+  });
+  std::size_t on_slabs = 0;
+  const auto see = [&](const SlabTrace& trace) { on_slabs += trace.last_disks < 320 ? 1 : 0; };
+  EXPECT_GT(expect_bits(scene, {2, 3}, RankThreads::alternate, see).counters.collisions, 300U);
+  EXPECT_GT(on_slabs, 0U);
+}
+
 // Brownian disks that cross a sink unseen leave at an interval's start.
 TEST(SlabExact, HasTheBitsOfBrownianDisksThatSinksTake) {
   TallBox tall{.sides = "sink", .t_end = 3.0, .step = 0.2};
