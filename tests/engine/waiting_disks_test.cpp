@@ -80,6 +80,7 @@ TEST(WaitingDisks, EndNoWindowsInBetweenWhereManyWait) {
 std::set<std::pair<double, double>> places_tried(const Scene& scene, State& state, double t) {
   std::set<std::pair<double, double>> places;
   state.time = t;
+  state.step_begun = false;  // a window has ended then
   emit_at_window_start(scene, state, [&](const Disk& d) { return places.insert({d.x, d.y}), false; });
   return places;
 }
