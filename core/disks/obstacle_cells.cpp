@@ -49,7 +49,10 @@ ObstacleGrid::ObstacleGrid(const std::vector<Extent>& extents, const Domain& box
   };
   x_ = axis(box.width, box.periodic_x());
   y_ = axis(box.height, box.periodic_y());
-  for (const Extent& e : extents) reach_.push_back({x_.span(e.low.x, e.high.x), y_.span(e.low.y, e.high.y)});
+  for (const Extent& e : extents) {
+    const CellAxis::Span columns = x_.span(e.low.x, e.high.x), rows = y_.span(e.low.y, e.high.y);
+    reach_.push_back({columns, rows, x_.periods(columns.first), y_.periods(rows.first)});
+  }
   // Counted first, then entered.
   const auto for_each_entry = [&](auto&& enter) {
     for (std::uint32_t k = 0; k < extents.size(); ++k) {
@@ -58,7 +61,8 @@ ObstacleGrid::ObstacleGrid(const std::vector<Extent>& extents, const Domain& box
           const std::int64_t py = y_.periods(row);
           const std::int64_t px = x_.periods(column);
           const auto cell = static_cast<std::size_t>((row - py * y_.cells) * x_.cells + (column - px * x_.cells));
-          enter(cell, Entry{extents[k].obstacle, k, static_cast<std::int32_t>(px), static_cast<std::int32_t>(py)});
+          enter(cell, Entry{extents[k].obstacle, k, static_cast<std::int32_t>(px - reach_[k].period_x),
+                            static_cast<std::int32_t>(py - reach_[k].period_y)});
         }
       }
     }
@@ -115,11 +119,14 @@ void ObstacleCells::find_clearances() {
 
 void ObstacleCells::follow(double from, double to) {
   if (moving_.empty()) return;
+  // No disk is there where a wall goes further than this in a step.
+  const double longest_way = std::min(box_.width, box_.height);
   std::vector<ObstacleGrid::Extent> swept;
   std::vector<Clearance::Extent> extents;
   for (const std::uint32_t k : moving_) {
     const Obstacle& o = obstacles_[k];
-    const WallMotion::Range range = motions_[o.id].range(from, to);
+    const WallMotion& motion = motions_[o.id];
+    const WallMotion::Range range = motion.range(std::max(from, to - longest_way / motion.largest_speed()), to);
     const Vec2 low{o.x + std::min(o.dx, 0.0) + range.low.x, o.y + std::min(o.dy, 0.0) + range.low.y};
     const Vec2 high{o.x + std::max(o.dx, 0.0) + range.high.x, o.y + std::max(o.dy, 0.0) + range.high.y};
     // A wall that has gone round a periodic box many times is known less exactly.

@@ -46,8 +46,8 @@ class ObstacleGrid {
         for (std::uint32_t e = start_[cell]; e < start_[cell + 1]; ++e) {
           const Entry& entry = entries_[e];
           const Reach& reach = reach_[entry.extent];
-          const std::int64_t kx = px - entry.period_x;
-          const std::int64_t ky = py - entry.period_y;
+          const std::int64_t kx = px - reach.period_x - entry.period_x;
+          const std::int64_t ky = py - reach.period_y - entry.period_y;
           // Of the cells that the image and the rectangle share, the first one only.
           if (column != std::max(columns.first, reach.columns.first + kx * x_.cells)) continue;
           if (row != std::max(rows.first, reach.rows.first + ky * y_.cells)) continue;
@@ -60,10 +60,12 @@ class ObstacleGrid {
  private:
   struct Entry {
     std::uint32_t obstacle, extent;
-    std::int32_t period_x, period_y;  // in which the obstacle, where it stands, reaches into the cell
+    // In which the obstacle, where it stands, reaches into the cell; from that of its first cell on.
+    std::int32_t period_x, period_y;
   };
   struct Reach {
     CellAxis::Span columns, rows;
+    std::int64_t period_x, period_y;  // of the first cell: walls that move may have gone round very often
   };
 
   CellAxis x_, y_;
@@ -93,7 +95,8 @@ class ObstacleCells {
 
   // Of one that moves.
   const WallMotion& motion_of(const Obstacle& o) const { return motions_[o.id]; }
-  // Walls that move are found at times from one to the other, both included, until the next call.
+  // Walls that move are found at times from one to the other, both included, until the next call; where they go further
+  // than the box is long, as in long steps without disks, in the last part of that time.
   void follow(double from, double to);
 
   // As ObstacleGrid::visit. The image of one that moves is displaced by shift from where its motion has brought it,

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "core/physics/obstacle_contact.hpp"
@@ -81,6 +82,48 @@ TEST(ObstacleCells, FindAllThatADiskTouches) {
       }
     }
   }
+}
+
+// A wall that is under way along x, once round in a unit of time.
+struct WindingWall {
+  Domain box;
+  std::unique_ptr<ObstacleCells> cells;
+
+  WindingWall() {
+    box.width = box.height = 8.0;
+    box.sides = {SideKind::periodic, SideKind::periodic, SideKind::wall, SideKind::wall};
+    box.inner_walls_move = true;
+    Obstacle wall;
+    wall.kind = ObstacleKind::wall;
+    wall.x = wall.y = 2.0;
+    wall.dy = 3.0;
+    wall.moves = true;
+    WallMotion motion;
+    motion.pace.kind = SideMotion::Kind::steady;
+    motion.pace.speed = 1.0;
+    motion.along = {8.0, 0.0};
+    cells = place_obstacles({wall}, box, {motion});
+  }
+  bool touches_at(double x) const { return touches_obstacle(box, x, 3.0, 0.25); }
+};
+
+// More often than a number of 32 bits counts.
+TEST(ObstacleCells, FindAWallThatHasGoneRoundVeryOften) {
+  for (const double rounds : {1.0, 0x1p31, 0x1p31 + 5.0, 0x1p32, 0x1p33 + 1.0, 0x1p40}) {
+    WindingWall wall;
+    wall.box.move_walls(rounds);
+    wall.cells->follow(rounds, rounds);
+    EXPECT_TRUE(wall.touches_at(2.125)) << rounds;
+    EXPECT_FALSE(wall.touches_at(2.5)) << rounds;
+  }
+}
+
+// A step without disks may be as long as it likes: its cells are no more for that.
+TEST(ObstacleCells, FindAWallThatGoesRoundVeryOftenInAStep) {
+  WindingWall wall;
+  step_walls(wall.box, wall.cells.get(), 0.0, 1e12);
+  EXPECT_TRUE(wall.touches_at(2.125));
+  EXPECT_FALSE(wall.touches_at(2.5));
 }
 
 }  // namespace
