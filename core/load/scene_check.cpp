@@ -215,12 +215,12 @@ void check_axis(double length, bool periodic, double radius, std::string_view na
                          periodic ? "two diameters (periodic sides)" : "the diameter"));
 }
 
-// Is there a place in [low, high] for the centre of a disk of this radius?
+// Is there a place in [low, high] for the centre of a disk of this radius? One place may touch a side in decimals.
 bool fits_along(double low, double high, double length, bool periodic, double radius) {
   if (periodic) return true;
   const double first = std::max(low, radius);
   const double last = std::min(high, length - radius);
-  return low < high ? first < last : first <= last;
+  return low < high ? first < last : first <= last + place_slack(radius, length);
 }
 
 // radius: the largest that the source can give. A larger disk than fits would hold up all behind it.

@@ -100,10 +100,12 @@ bool inside(const Domain& box, const Disk& d) {
   for (const Side side : all_sides) {
     if (box.side(side) == SideKind::sink && reach_beyond(side, d.x, d.y, d.radius, box) >= 0.0) return false;
   }
+  // A disk of a region that touches a wall in decimals is inside.
+  const double slack = place_slack(box, d.radius);
   const auto touching = [&](Side side) { return touching_coordinate(side, d.radius, box); };
-  const bool x = box.periodic_x() || (d.x >= touching(Side::left) && d.x <= touching(Side::right));
-  const bool y = box.periodic_y() || (d.y >= touching(Side::bottom) && d.y <= touching(Side::top));
-  const double held = (1.0 + clear_of_sink) * d.radius + place_slack(box, d.radius);
+  const bool x = box.periodic_x() || (d.x >= touching(Side::left) - slack && d.x <= touching(Side::right) + slack);
+  const bool y = box.periodic_y() || (d.y >= touching(Side::bottom) - slack && d.y <= touching(Side::top) + slack);
+  const double held = (1.0 + clear_of_sink) * d.radius + slack;
   return x && y && !touches_obstacle(box, d.x, d.y, d.radius) && !touches_inner_sink(box, d.x, d.y, held);
 }
 

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "core/load/scene_file.hpp"
 #include "core/measure/invariants.hpp"
 #include "core/physics/boundary.hpp"
 #include "core/step/source.hpp"
@@ -380,6 +381,18 @@ TEST(Emission, FromARegionIsWithinAllWalls) {
       EXPECT_LE(state.disks.y[i], 3.75);
     }
   }
+}
+
+// 3.3 - 1.1 is less than 2.2 in binary numbers; such a scene was refused, as if there were no place.
+TEST(Emission, FromAPlaceThatTouchesAWallInDecimals) {
+  const Scene s = parse_scene(
+      "[box]\nwidth = 3.3\nheight = 9.0\n[[sources]]\nregion = [2.2, 2.0, 2.2, 2.0]\nrate = 10.0\nlimit = 1\n"
+      "radius = 1.1\nmass = 1.0\n[run]\nmethod = \"pairwise\"\ndt = 0.01\nt_end = 1.0\n",
+      "decimals.toml", "");
+  State state = test::state_of(s, {});
+  emit_due(s, state, 0.5, 50, [](const Disk&) { return true; });
+  ASSERT_EQ(state.disks.size(), 1U);
+  EXPECT_EQ(state.disks.x[0], 2.2);
 }
 
 // Where all that have waited find room at once, no more come than the limit.
