@@ -90,6 +90,31 @@ TEST(HexagonalLattice, ClosesThroughPeriodicSides) {
   EXPECT_DOUBLE_EQ(lattice->spacing_y * static_cast<double>(lattice->rows), 9.0);
 }
 
+// As far from the left side on even rows as from the right side on odd ones, so that no disk stands on a side.
+TEST(HexagonalLattice, IsInTheMiddleOfAPeriodicWidth) {
+  const auto lattice = hexagonal_lattice(box_of(8, 30, true, false), 40, 1.0);
+  ASSERT_TRUE(lattice.has_value());
+  ASSERT_GT(lattice->columns, 1U);
+  const Count last = lattice->columns - 1;
+  const Count all = lattice->columns * lattice->rows;
+  EXPECT_DOUBLE_EQ(lattice_site(*lattice, 0, all).x, 0.25 * lattice->spacing_x);
+  EXPECT_DOUBLE_EQ(lattice_site(*lattice, lattice->columns + last, all).x, 8.0 - 0.25 * lattice->spacing_x);
+}
+
+// In a narrow box disks touch one side and the other by turns, and the disk of the row below.
+TEST(HexagonalLattice, ZigzagsBetweenNarrowSides) {
+  const double rise = std::sqrt(1.0 - 0.2 * 0.2);
+  const Domain box = box_of(1.2, 1.0 + 4.0 * rise + 1e-9, false, false);
+  EXPECT_EQ(hexagonal_capacity(box, 1.0), 5U);
+  const auto lattice = hexagonal_lattice(box, 5, 1.0);
+  ASSERT_TRUE(lattice.has_value());
+  for (Count k = 0; k < 5; ++k) {
+    const Vec2 site = lattice_site(*lattice, k, 5);
+    EXPECT_NEAR(site.x, k % 2 == 0 ? 0.5 : 0.7, 1e-12) << k;
+    EXPECT_NEAR(site.y, 0.5 + static_cast<double>(k) * rise, 1e-8) << k;
+  }
+}
+
 TEST(HexagonalLattice, HoldsMoreThanTheSquareInALargeBox) {
   EXPECT_GT(hexagonal_capacity(box_of(50, 50, false, false), 1.0), square_capacity(box_of(50, 50, false, false), 1.0));
 }
