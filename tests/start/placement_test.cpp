@@ -179,6 +179,21 @@ TEST(RandomPlacement, KeepsClearOfInnerWalls) {
   }
 }
 
+// Fixed disks stand before others find their places, wherever the scene lists them. They are obstacles at the end.
+TEST(RandomPlacement, KeepsClearOfFixedDisks) {
+  const Scene scene = scene_from(box_text("width = 30\nheight = 30", true, false) + group("\"random\"", "0.5", 300) +
+                                 "[[disks]]\nfixed = true\ncount = 3\npositions = [[1, 4], [15, 15], [22, 29]]\n"
+                                 "radius = [3.0, 6.0, 2.0]\n");
+  const State state = initial_state(scene);
+  ASSERT_EQ(state.obstacles.size(), 3U);
+  for (const Obstacle& o : state.obstacles) {
+    for (std::size_t i = 0; i < state.disks.size(); ++i) {
+      const double dx = nearest_image(state.disks.x[i] - o.x, scene.box.width);
+      ASSERT_GE(std::hypot(dx, state.disks.y[i] - o.y), (o.radius + 0.5) * (1.0 - 1e-15)) << i;
+    }
+  }
+}
+
 TEST(RandomPlacement, OneHugeDiskAmongManySmallOnes) {
   const Scene scene = scene_from(box_text("width = 300\nheight = 300", true, false) + group("\"random\"", "0.3", 3000) +
                                  group("\"random\"", "70", 1));
@@ -201,6 +216,16 @@ TEST(LatticePlacement, FitsDenseBoxesWithMixedRadii) {
     const State state = initial_state(mixed);
     expect_apart(state, mixed.box, 1e-12);
     expect_inside(state, mixed.box);
+  }
+}
+
+// The largest disk of a group says how far apart its sites are, though it be the last.
+TEST(LatticePlacement, HasRoomForTheLargestDisk) {
+  for (const char* const positions : {"\"square\"", "\"hexagonal\""}) {
+    EXPECT_THAT(
+        test::complaint(box_text("width = 6\nheight = 6", false, false) + group(positions, "[0.5, 0.5, 0.5, 2.0]", 4)),
+        HasSubstr("4 disks of radius up to 2 do not fit"))
+        << positions;
   }
 }
 
