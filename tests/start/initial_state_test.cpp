@@ -169,6 +169,16 @@ TEST(Velocities, MaxwellIsNormal) {
   EXPECT_NEAR(fourth / 20000.0, 3.0, 4 * std::sqrt(96.0 / 20000.0)) << "fourth moment of a normal deviate";
 }
 
+// A flow across the box is at rest half-way up, and comes on top of the velocities that the groups have.
+TEST(Velocities, AShearFlowIsAtRestHalfWayUp) {
+  const State s = initial_state(scene_from(
+      "[box]\nwidth = 20\nheight = 10\nleft = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\n"
+      "top = \"periodic\"\nshear_rate = 0.5\n[[disks]]\ncount = 3\npositions = [[5, 1], [5, 5], [5, 8]]\n"
+      "velocities = [[1, 2], [3, 4], [5, 6]]\nradius = 0.5\nmass = 1\n[run]\nmethod = \"exact\"\nt_end = 1\n"));
+  EXPECT_THAT(s.disks.vx, ElementsAre(-1.0, 3.0, 6.5));
+  EXPECT_THAT(s.disks.vy, ElementsAre(2.0, 4.0, 6.0));
+}
+
 // Spins of a temperature: the mean of I w^2 is T (1 +- sqrt(2 / n)), I = q m r^2, whatever the disk; a list is taken as
 // it is.
 TEST(Spins, ThermalOnesGoByTheMomentOfInertia) {
@@ -188,6 +198,17 @@ TEST(Spins, ThermalOnesGoByTheMomentOfInertia) {
       "[box]\nwidth = 9\nheight = 9\n[physics]\nroughness = { tangential_restitution = 0.5 }\n" +
       group("0.1", "1", 2, "spin = 7.0") + group("0.1", "1", 3, "spin = [1.0, -2.0, 3.0]") + "[run]\nt_end = 1\n");
   EXPECT_THAT(initial_state(rough).disks.spin, ElementsAre(7.0, 7.0, 1.0, -2.0, 3.0));
+}
+
+// Of a group the mean of I w^2 is the temperature to the last digits, beside what other groups have.
+TEST(Spins, OfAGroupHaveItsTemperature) {
+  const State s = initial_state(
+      scene_with("[physics]\nroughness = { tangential_restitution = 0.5 }\n" + group("1", "1", 5, "spin = 7.0") +
+                 group("{ uniform = [0.1, 0.6] }", "{ uniform = [1, 9] }", 40, "spin_temperature = 2.5")));
+  const Disks& d = s.disks;
+  double sum = 0.0;
+  for (std::size_t i = 5; i < 45; ++i) sum += 0.5 * d.mass[i] * d.radius[i] * d.radius[i] * d.spin[i] * d.spin[i];
+  EXPECT_NEAR(sum / 40.0, 2.5, 1e-13);
 }
 
 TEST(Sizes, AListHasAnEntryADisk) {
