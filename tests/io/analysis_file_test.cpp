@@ -175,6 +175,15 @@ TEST_F(AnalysisFile, CountsAreOverTheSamples) {
   EXPECT_EQ(word("/profile", "axis"), "x");
 }
 
+TEST_F(AnalysisFile, ProfilesSayAlongWhichAxis) {
+  Scene scene = measured_scene("");
+  scene.analysis.density_along_x = true;
+  scene.analysis.profile_along_x = false;
+  write(scene, made_by_hand(scene));
+  EXPECT_EQ(word("/density", "axis"), "x");
+  EXPECT_EQ(word("/profile", "axis"), "y");
+}
+
 TEST_F(AnalysisFile, RowsOfProfilesStandOneAfterTheOther) {
   write("");
   // Slabs of 8 x 2, two samples a row.
