@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "core/base/check.hpp"
+#include "io/tables/group_columns.hpp"
 #include "io/tables/rotation_columns.hpp"
 #include "io/tables/side_columns.hpp"
 #include "tests/support/disks_by_hand.hpp"
@@ -204,6 +206,32 @@ TEST(SeriesColumns, InAShearTemperatureAndStressAreOfMotionRelativeToTheFlow) {
   }
 }
 
+// The temperature of a group, too: it is that of the same disks without a flow. Its mean velocity and its energy are
+// those of the disks as they move.
+TEST(SeriesColumns, InAShearTheTemperatureOfAGroupIsOfMotionRelativeToTheFlow) {
+  Scene scene = test::scene_of(Method::exact, 10.0, 4.0, 0.0, 10.0);
+  test::set_sides(scene.box, SideKind::periodic, SideKind::periodic);
+  scene.groups.resize(1);
+  scene.groups[0].count = 2;
+  scene.groups[0].name = "all";
+  const auto row_of = [&scene](const Disks& disks) {
+    Row row;
+    const GroupMeter meter(scene);
+    const std::vector<double> values = meter.row(disks);
+    const std::vector<GroupColumn> columns = meter.columns();
+    for (std::size_t k = 0; k < values.size(); ++k) row[columns.at(k).name] = values[k];
+    return row;
+  };
+  Row at_rest = row_of(test::disks_of({{2.0, 3.0, 1.0, 2.0, 0.5, 2.0}, {6.0, 2.0, -1.0, 1.0, 0.5, 2.0}}));
+  scene.box.shear.rate = 0.5;
+  scene.box.shear.jump = 2.0;
+  Row sheared = row_of(test::disks_of({{2.0, 3.0, 1.5, 2.0, 0.5, 2.0}, {6.0, 2.0, -1.0, 1.0, 0.5, 2.0}}));
+  EXPECT_GT(sheared["temperature_all"], 0.0);
+  EXPECT_EQ(sheared["temperature_all"], at_rest["temperature_all"]);
+  EXPECT_EQ(sheared["vx_all"], 0.25);
+  EXPECT_EQ(sheared["kinetic_all"], 0.5 * 2.0 * (1.5 * 1.5 + 4.0 + 1.0 + 1.0));
+}
+
 // The images above have moved to the side by 1 at time 0.5: there is a disk's image above the other one then, which it
 // overlaps by a quarter of both radii together.
 TEST(SeriesColumns, OverlapsAreThoseOfTheBoxAtTheTimeOfTheRow) {
@@ -332,6 +360,25 @@ TEST(Series, GoesOnWithItsOwnColumnsAlone) {
   EXPECT_EQ(read_csv(path).size(), 1U) << "the file is as it was";
   SeriesWriter(path, small_scene(), mark).write(Disks{}, 1.0, State{});
   EXPECT_EQ(read_csv(path).size(), 2U);
+}
+
+// A file that was cut within its heading is too short; its columns may have been the right ones.
+TEST(Series, OneThatWasCutInItsHeadingIsTooShort) {
+  const test::TestFolder folder("series_cut");
+  const std::string path = folder.path() / "series.csv";
+  SeriesMark mark;
+  {
+    SeriesWriter series(path, small_scene());
+    series.write(Disks{}, 0.0, State{});
+    mark = series.mark();
+  }
+  std::filesystem::resize_file(path, 20);
+  try {
+    SeriesWriter(path, small_scene(), mark);
+    FAIL() << "it went on";
+  } catch (const std::exception& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("has 20 bytes; expected "));
+  }
 }
 
 }  // namespace
