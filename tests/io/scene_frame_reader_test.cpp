@@ -147,5 +147,21 @@ TEST_F(SceneFrames, TellsTheShearOfItsRun) {
   EXPECT_EQ(frame("T T", "", "").shear_rate, std::nullopt);
 }
 
+// Whose velocities are those of drawn displacements, by the scene beside it.
+TEST_F(SceneFrames, TellsThatItsDisksAreBrownian) {
+  with_times({0.0});
+  const auto brownian = [this](std::string_view physics) {
+    folder_.write("scene.toml", fmt::format("[box]\nwidth = 10\nheight = 8\n{}[[disks]]\ncount = 1\n"
+                                            "positions = [[1, 2]]\nradius = 0.5\nmass = 6\n"
+                                            "[run]\nmethod = \"pairwise\"\ndt = 0.01\nt_end = 1\n",
+                                            physics));
+    return read_scene_frame({folder_.path().string(), {}, {}, true}).brownian;
+  };
+  EXPECT_FALSE(brownian(""));
+  EXPECT_TRUE(brownian("[physics]\ndiffusion = 0.1\n"));
+  EXPECT_FALSE(brownian("[physics]\ndiffusion = 0.1\naccumulate = true\n")) << "which has velocities";
+  EXPECT_FALSE(read_scene_frame({folder_.path().string(), {}, {}, false}).brownian) << "not asked for velocities";
+}
+
 }  // namespace
 }  // namespace carom
