@@ -282,6 +282,39 @@ TEST_F(H5mdFile, WhatIsKnownForEverIsFilledUp) {
   }
 }
 
+// Disks that a program has added before the file begins have their places, though no source of the scene emits any.
+TEST_F(H5mdFile, DisksThatAProgramAddedHaveTheirPlaces) {
+  Scene scene = rough_scene();
+  scene.sources.clear();
+  H5mdWriter writer(path_, scene, nullptr, 6);
+  writer.write(disks_at(0, 6), 0.0, 0, {});
+  writer.close();
+  H5mdReader reader(path_);
+  TrajectoryFrame frame;
+  ASSERT_TRUE(reader.read(frame));
+  EXPECT_THAT(frame.disks.id, ElementsAre(0U, 1U, 2U, 3U, 4U, 5U));
+  EXPECT_THAT(frame.disks.mass, ElementsAre(1.0, 2.0, 3.0, 4.0, 5.0, 6.0));
+}
+
+// Where none of the disks that a source emits is selected, the file has its places for good.
+TEST_F(H5mdFile, PlacesAreAddedOnlyWhereDisksMayCome) {
+  const auto most_places = [this](DiskId end) {
+    Scene scene = rough_scene();
+    scene.output.select.ids.end = end;
+    write(scene, 1);
+    hsize_t most = 0;
+    change("mass", [&most](hid_t, hid_t set) {
+      const hid_t space = H5Dget_space(set);
+      H5Sget_simple_extent_dims(space, nullptr, &most);
+      H5Sclose(space);
+    });
+    return most;
+  };
+  EXPECT_EQ(most_places(3), 3U);
+  EXPECT_EQ(most_places(4), 4U) << "all of the start";
+  EXPECT_EQ(most_places(5), H5S_UNLIMITED);
+}
+
 TEST_F(H5mdFile, OfAnotherShapeItIsNotGoneOnWith) {
   write(rough_scene(), 3);
   Scene other = rough_scene();
