@@ -74,6 +74,10 @@ Met contacts_in_order(const Engine& engine) {
   return all;
 }
 
+auto told_of(const WorstOverlap& worst) {
+  return std::tuple(worst.overlap.size, worst.overlap.id1, worst.overlap.id2, worst.time);
+}
+
 void expect_same(const Engine& engine, const Engine& reference) {
   const State& a = engine.state();
   const State& b = reference.state();
@@ -81,8 +85,10 @@ void expect_same(const Engine& engine, const Engine& reference) {
   ASSERT_EQ(state_hash(a.disks), state_hash(b.disks));
   EXPECT_EQ(a.counters.collisions, b.counters.collisions);
   EXPECT_EQ(a.counters.wall_collisions, b.counters.wall_collisions);
-  EXPECT_EQ(a.validity.disks.overlap.size, b.validity.disks.overlap.size);
-  EXPECT_EQ(a.validity.wall.overlap.size, b.validity.wall.overlap.size);
+  EXPECT_EQ(told_of(a.validity.disks), told_of(b.validity.disks));
+  EXPECT_EQ(told_of(a.validity.wall), told_of(b.validity.wall));
+  EXPECT_EQ(a.validity.inaccurate, b.validity.inaccurate);
+  EXPECT_EQ(a.validity.inaccurate_at_walls, b.validity.inaccurate_at_walls);
   EXPECT_EQ(contacts_in_order(engine), contacts_in_order(reference));
 }
 
