@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 
 #include "core/disks/cell_axis.hpp"
 #include "core/disks/cell_index.hpp"
@@ -69,10 +68,8 @@ void for_pairs_of_row(const UniformGrid& grid, std::size_t row, const Disks& d, 
     if (other < home) return;  // they are found from there
     for (std::uint32_t a = grid.start[home]; a < grid.start[home + 1]; ++a) {
       for (std::uint32_t b = other == home ? a + 1 : grid.start[other]; b < grid.start[other + 1]; ++b) {
-        std::uint32_t i = grid.members[a];
-        std::uint32_t j = grid.members[b];
-        if (d.id[j] < d.id[i]) std::swap(i, j);
-        if (touch(d, box, i, j)) use(i, j);
+        const std::uint32_t i = grid.members[a], j = grid.members[b];
+        if (touch(d, box, i, j)) d.id[j] < d.id[i] ? use(j, i) : use(i, j);
       }
     }
   };
