@@ -48,10 +48,11 @@ constexpr double smallest_of_few = 1.6;
 // into as many pieces as it needs, for ever.
 constexpr double largest_drawn = 1e6;
 
-// In order of ids disks lie anywhere in memory: those so far ahead are fetched while others are drawn.
+// In order of ids disks lie anywhere in memory: those so far ahead are prefetched while others are drawn.
 constexpr std::size_t disks_ahead = 16;
 
-void fetch(const Disks& d, std::size_t i) {
+// Inlined, as g++ 12 leaves out calls of functions that do nothing but prefetch.
+[[gnu::always_inline]] inline void prefetch_disk(const Disks& d, std::size_t i) {
   for (const double* const column : {d.x.data(), d.y.data(), d.vx.data(), d.vy.data()}) {
     __builtin_prefetch(column + i);
   }
@@ -178,7 +179,7 @@ void FramePainter::for_each_disk(const DisksInPieces& disks, const std::vector<D
   disks.visit([&](const Disks& d) {
     const std::vector<std::size_t> order = by_id(d);
     for (std::size_t k = 0; k < order.size(); ++k) {
-      if (k + disks_ahead < order.size()) fetch(d, order[k + disks_ahead]);
+      if (k + disks_ahead < order.size()) prefetch_disk(d, order[k + disks_ahead]);
       const std::size_t i = order[k];
       const Colour colour = colour_of(d, i, group);
       const double pixels = std::clamp(d.radius_of(i) * layout_.scale, smallest, largest_drawn);
