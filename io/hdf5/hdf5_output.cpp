@@ -122,9 +122,13 @@ Hdf5Handle text_type(const Hdf5Output& output, std::size_t length) {
   return type;
 }
 
-Hdf5Handle space_of(const Hdf5Output& output, std::size_t length, bool list) {
+Hdf5Handle space_of_one(const Hdf5Output& output) {
+  return output.checked(H5Screate(H5S_SCALAR), H5Sclose);
+}
+
+Hdf5Handle space_of_list(const Hdf5Output& output, std::size_t length) {
   const hsize_t size = length;
-  return output.checked(list ? H5Screate_simple(1, &size, nullptr) : H5Screate(H5S_SCALAR), H5Sclose);
+  return output.checked(H5Screate_simple(1, &size, nullptr), H5Sclose);
 }
 
 void write_attribute(const Hdf5Output& output, const std::string& object, const char* name, const Hdf5Handle& space,
@@ -137,29 +141,36 @@ void write_attribute(const Hdf5Output& output, const std::string& object, const 
 
 }  // namespace
 
-void Hdf5Output::attribute(const std::string& object, const char* name, const std::vector<std::string>& texts,
-                           bool list) const {
+void Hdf5Output::attribute(const std::string& object, const char* name, const std::string& text) const {
+  const Hdf5Handle type = text_type(*this, text.size());
+  write_attribute(*this, object, name, space_of_one(*this), type.get(), type.get(), text.c_str());
+}
+
+void Hdf5Output::attribute(const std::string& object, const char* name, int number) const {
+  write_attribute(*this, object, name, space_of_one(*this), H5T_STD_I32LE, H5T_NATIVE_INT, &number);
+}
+
+void Hdf5Output::attribute(const std::string& object, const char* name, double number) const {
+  write_attribute(*this, object, name, space_of_one(*this), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &number);
+}
+
+void Hdf5Output::attribute(const std::string& object, const char* name, const std::vector<std::string>& texts) const {
   std::size_t length = 1;
   for (const std::string& text : texts) length = std::max(length, text.size());
   std::string all;
   for (const std::string& text : texts) all += text + std::string(length - text.size(), '\0');
   const Hdf5Handle type = text_type(*this, length);
-  write_attribute(*this, object, name, space_of(*this, texts.size(), list), type.get(), type.get(), all.data());
+  write_attribute(*this, object, name, space_of_list(*this, texts.size()), type.get(), type.get(), all.data());
 }
 
-void Hdf5Output::attribute(const std::string& object, const char* name, const std::vector<int>& numbers,
-                           bool list) const {
-  write_attribute(*this, object, name, space_of(*this, numbers.size(), list), H5T_STD_I32LE, H5T_NATIVE_INT,
+void Hdf5Output::attribute(const std::string& object, const char* name, const std::vector<int>& numbers) const {
+  write_attribute(*this, object, name, space_of_list(*this, numbers.size()), H5T_STD_I32LE, H5T_NATIVE_INT,
                   numbers.data());
-}
-
-void Hdf5Output::attribute(const std::string& object, const char* name, double number) const {
-  write_attribute(*this, object, name, space_of(*this, 1, false), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &number);
 }
 
 void Hdf5Output::text(const std::string& name, const std::string& text) const {
   const Hdf5Handle type = text_type(*this, text.size());
-  const Hdf5Handle space = space_of(*this, 1, false);
+  const Hdf5Handle space = space_of_one(*this);
   const Hdf5Handle plan = timeless(*this, H5P_DATASET_CREATE);
   const Hdf5Handle set = checked(
       H5Dcreate2(file(), name.c_str(), type.get(), space.get(), H5P_DEFAULT, plan.get(), H5P_DEFAULT), H5Dclose);

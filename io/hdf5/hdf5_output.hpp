@@ -43,9 +43,12 @@ class Hdf5Output {
   hid_t file() const { return file_.get(); }
   void make_group(const std::string& name) const;
   void link(const std::string& target, const std::string& name) const;  // a second name for a dataset
-  void attribute(const std::string& object, const char* name, const std::vector<std::string>& texts, bool list) const;
-  void attribute(const std::string& object, const char* name, const std::vector<int>& numbers, bool list) const;
+  // One value, or a list of them, even where it has but one entry.
+  void attribute(const std::string& object, const char* name, const std::string& text) const;
+  void attribute(const std::string& object, const char* name, int number) const;
   void attribute(const std::string& object, const char* name, double number) const;
+  void attribute(const std::string& object, const char* name, const std::vector<std::string>& texts) const;
+  void attribute(const std::string& object, const char* name, const std::vector<int>& numbers) const;
   void text(const std::string& name, const std::string& text) const;  // as a dataset
 
   // limit: H5S_UNLIMITED where the dataset may grow.

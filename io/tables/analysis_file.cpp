@@ -27,12 +27,12 @@ class Group {
 
   void numbers(const char* name, const std::vector<double>& values, const char* unit) const {
     put(name, double_kind(), Extent{values.size()}, values.data());
-    output_.attribute(name_ + "/" + name, "unit", {unit}, false);
+    output_.attribute(name_ + "/" + name, "unit", unit);
   }
   // Rows of equal length; their values one after the other.
   void table(const char* name, const std::vector<double>& values, std::size_t rows, const char* unit) const {
     put(name, double_kind(), rows_of(values.size(), rows), values.data());
-    output_.attribute(name_ + "/" + name, "unit", {unit}, false);
+    output_.attribute(name_ + "/" + name, "unit", unit);
   }
   // Whole numbers, which may be kept as double.
   template <class Number>
@@ -46,7 +46,7 @@ class Group {
     put(name, count_kind(), rows_of(values.size(), rows), signed_values.data());
   }
   void say(const char* name, double number) const { output_.attribute(name_, name, number); }
-  void say(const char* name, const std::string& text) const { output_.attribute(name_, name, {text}, false); }
+  void say(const char* name, const std::string& text) const { output_.attribute(name_, name, text); }
 
  private:
   static Extent rows_of(std::size_t values, std::size_t rows) { return {rows, rows > 0 ? values / rows : 0}; }
@@ -292,7 +292,7 @@ void put_bonds(Hdf5Output& output, const AnalysisRecord& record, const Scene& sc
 void write_analysis(const std::string& path, const Scene& scene, const AnalysisRecord& record) {
   const AnalysisPlan& plan = scene.analysis;
   Hdf5Output output(path);
-  output.attribute("/", "creator", {"Carom " CAROM_VERSION}, false);
+  output.attribute("/", "creator", "Carom " CAROM_VERSION);
   output.make_group("/parameters");
   output.text("/parameters/scene", resolved_toml(scene));
   put_series(output, record, scene);

@@ -140,18 +140,18 @@ void H5mdWriter::File::describe(const Scene& scene) const {
   for (const char* const group : {"/h5md", "/h5md/author", "/h5md/creator", "/parameters", "/particles", h5md_disks}) {
     output.make_group(group);
   }
-  output.attribute("/h5md", "version", std::vector<int>{1, 1}, true);
-  output.attribute("/h5md/author", "name", {user_name()}, false);
-  output.attribute("/h5md/creator", "name", {"Carom"}, false);
-  output.attribute("/h5md/creator", "version", {CAROM_VERSION}, false);
+  output.attribute("/h5md", "version", std::vector<int>{1, 1});
+  output.attribute("/h5md/author", "name", user_name());
+  output.attribute("/h5md/creator", "name", "Carom");
+  output.attribute("/h5md/creator", "version", CAROM_VERSION);
   output.text("/parameters/scene", resolved_toml(scene));
   const std::string box = std::string(h5md_disks) + "/box";
   output.make_group(box);
-  output.attribute(box, "dimension", std::vector<int>{form.dimensions}, false);
+  output.attribute(box, "dimension", form.dimensions);
   const auto boundary = [](bool periodic) { return std::string(periodic ? "periodic" : "none"); };
   std::vector<std::string> boundaries{boundary(scene.box.periodic_x()), boundary(scene.box.periodic_y())};
   if (form.dimensions == 3) boundaries.push_back(boundary(false));
-  output.attribute(box, "boundary", boundaries, true);
+  output.attribute(box, "boundary", boundaries);
   if (form.dimensions == 3) return;  // its edges are a column
   const std::array<double, 2> edges{scene.box.width, scene.box.height};
   const Hdf5Handle set = output.make_dataset(box + "/edges", double_kind(), {2}, {2}, {2}, Packing::plain);

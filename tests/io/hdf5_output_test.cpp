@@ -64,7 +64,7 @@ TEST(Hdf5Text, IsUtf8) {
   Hdf5Output output(path, false);
   output.text("/empty", "");
   output.text("/title", "caf\xc3\xa9");
-  output.attribute("/", "unit", {std::string()}, false);
+  output.attribute("/", "unit", std::string());
   const Hdf5Handle set = output.open_dataset("/title");
   const Hdf5Handle type{H5Dget_type(set.get()), H5Tclose};
   EXPECT_EQ(H5Tget_cset(type.get()), H5T_CSET_UTF8);
