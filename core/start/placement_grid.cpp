@@ -5,16 +5,12 @@
 
 #include "core/base/huge_pages.hpp"
 #include "core/disks/cell_index.hpp"
+#include "core/disks/place_slack.hpp"
 #include "core/physics/obstacle_contact.hpp"
 
 namespace carom {
 
 namespace {
-
-// Overlap of two disks that decimals rounded to doubles may show although they touch: 1e-12 of the sum of radii, and
-// four units in the last place of the largest coordinate.
-constexpr double relative_slack = 1e-12;
-constexpr double coordinate_slack = 0x1p-50;
 
 // Classes of size beyond this one share the last grid: radii more than 2^40 apart.
 constexpr int last_class = 40;
@@ -147,9 +143,7 @@ bool PlacementGrid::overlaps(std::size_t i, double x, double y, double radius, b
   const auto [dx, dy, contact] = seen_from(i, x, y, radius);
   const double distance_squared = dx * dx + dy * dy;
   if (!(distance_squared < contact * contact)) return false;
-  if (!slack) return true;
-  const double allowed = relative_slack * contact + coordinate_slack * std::max(box_.width, box_.height);
-  return contact - std::sqrt(distance_squared) > allowed;
+  return !slack || contact - std::sqrt(distance_squared) > place_slack(box_, contact);
 }
 
 template <class Use>
