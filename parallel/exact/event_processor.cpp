@@ -268,7 +268,7 @@ ScheduledEvent EventProcessor<scope>::next_event(std::uint32_t i, double from, c
   if (scope == Scope::border && from < window_.slice_stop() && window_.in_slice(relist_at)) {
     put_off_relisting(i);
     // Slices are so short that this does not happen.
-    if (!stays_listed(i, from, std::min(event.time, window_.slice_stop()), lists_.relist_distance(false)))
+    if (!stays_listed(i, from, std::min(event.time, window_.slice_stop()), lists_.relist_distance_elsewhere()))
       worker_.too_fast = worker_.ended = true;
     return event;
   }

@@ -86,6 +86,8 @@ class NeighbourLists {
   // No disk that they hold may be larger: no search would look for it. Length.
   double largest_listed() const { return largest_radius_; }
   const RelistDistance& relist_distance(bool near_border) const { return near_border ? near_border_ : elsewhere_; }
+  const RelistDistance& relist_distance_near_border() const { return near_border_; }
+  const RelistDistance& relist_distance_elsewhere() const { return elsewhere_; }
   Vec2 listed_unit() const { return listed_box_.unit; }  // of a FixedPointPosition; length
   // Of disk i; inside the box, but for rounding.
   Vec2 listed_position(std::uint32_t i) const { return listed_box_.position_of(rows_.listed_at(i)); }

@@ -46,7 +46,7 @@ namespace carom {
   const Partner partner = record[i].partner;
   if (stage == 1 && partner.is_relist()) {
     const double time = worker.calendar.time_of(i);
-    lists.prefetch_search(record[i].path, record[i].radius, time, lists.relist_distance(false));
+    lists.prefetch_search(record[i].path, record[i].radius, time, lists.relist_distance_elsewhere());
     return;
   }
   if (!partner.is_disk() || !worker.region.holds(partner.index())) return;

@@ -58,7 +58,7 @@ bool EventProcessor<scope>::stays_in_skin(std::uint32_t i, double time) const {
 template <Scope scope>
 void EventProcessor<scope>::block(std::uint32_t i, double time) {
   if (!stays_in_skin(i, time)) [[unlikely]] {
-    const bool listed = relist(i, time, lists_.relist_distance(true)) || relist_a_little(i, time);
+    const bool listed = relist(i, time, lists_.relist_distance_near_border()) || relist_a_little(i, time);
     if (!listed || !stays_in_skin(i, time)) worker_.too_fast = worker_.ended = true;
     predict_next_event<false>(i, time);
   }
@@ -116,7 +116,7 @@ template <Scope scope>
 void EventProcessor<scope>::relist_if_far(std::uint32_t i) {
   const PathSegment p = carried_to(record_[i].path, window_.slice_stop(), window_.rules.gravity);
   if (std::isnan(p.x)) return;
-  const double rest = lists_.skin() - lists_.relist_distance(true).length;
+  const double rest = lists_.skin() - lists_.relist_distance_near_border().length;
   const bool is_far = !lists_.stays_in_skin(i, p.x, p.y, rest);
   if (is_far) relist(i, window_.slice_stop(), relist_distance(i));
   predict_next_slice(i);

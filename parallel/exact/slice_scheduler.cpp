@@ -23,7 +23,7 @@ void SliceScheduler::begin_window(bool rebuilt, double per_disk) {
   if (rebuilt) {
     relisted_ = 0;
     lay_out_regions();
-    slice_room_ = has_regions() ? lists_.skin() - lists_.relist_distance(true).length : never;
+    slice_room_ = has_regions() ? lists_.skin() - lists_.relist_distance_near_border().length : never;
     if (ghosts_ != nullptr) {
       slice_room_ = ghosts_->least_of_all(slice_room_);
       mark_ghosts();

@@ -1,6 +1,5 @@
 // The start of a window: what the disks begin it with.
 #include <algorithm>
-#include <cmath>
 
 #include "parallel/exact/window_run.hpp"
 
@@ -130,7 +129,7 @@ unsigned WindowRun::bits_of_new_sides(double start) const {
 // Which disks are near borders is not known yet when lists have just been built: all are taken to be.
 double WindowRun::first_relist_time(std::size_t i, const WindowPlan& plan) const {
   return lists_.earliest_relist_time(static_cast<std::uint32_t>(i), window_.record[i].path, 0.0, plan.length,
-                                     window_.rules.gravity, lists_.relist_distance(true));
+                                     window_.rules.gravity, lists_.relist_distance_near_border());
 }
 
 }  // namespace carom

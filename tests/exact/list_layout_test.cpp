@@ -57,14 +57,14 @@ TEST(ListLayout, LeavesRoomForGrowth) {
   };
   build(0.0);
   const double skin = lists.skin();
-  EXPECT_EQ(lists.relist_distance(false).length, skin);
+  EXPECT_EQ(lists.relist_distance_elsewhere().length, skin);
   build(0.5 * skin);
   EXPECT_NEAR(lists.skin(), skin, 1e-12);
   EXPECT_EQ(lists.growth(), 0.5 * skin);
-  EXPECT_EQ(lists.relist_distance(false).length, lists.skin() - 0.5 * skin);
+  EXPECT_EQ(lists.relist_distance_elsewhere().length, lists.skin() - 0.5 * skin);
   build(0.9 * skin);
   EXPECT_EQ(lists.growth(), 0.0);
-  EXPECT_EQ(lists.relist_distance(false).length, lists.skin());
+  EXPECT_EQ(lists.relist_distance_elsewhere().length, lists.skin());
 }
 
 // What comes to a part may be a little larger than all that it had; a giant elsewhere in the box makes no search

@@ -102,7 +102,7 @@ class PathsNearTheEdge {
   }
 
   void see_path(std::uint32_t i) {
-    const RelistDistance& relist = listed_.lists.relist_distance(false);
+    const RelistDistance& relist = listed_.lists.relist_distance_elsewhere();
     const Vec2 centre = listed_.lists.listed_position(i);
     const double angle = draws_.in(0.0, 6.28);
     const auto edge = [&](double at) {

@@ -279,8 +279,8 @@ TEST(NeighbourLists, GoWithTheFlow) {
     ASSERT_FALSE(lists.is_strained(start + until));
     for (std::uint32_t i = 0; i < n; ++i) {
       const PathSegment path{0.0, d.x[i], d.y[i], box.shear.flow(d.y[i], box.height), 0.0};
-      ASSERT_GT(lists.earliest_relist_time(i, path, 0.0, 0.0, Gravity(), lists.relist_distance(false)), until);
-      ASSERT_TRUE(lists.stays_listed_bent(i, path, 0.0, until, Gravity(), lists.relist_distance(false)));
+      ASSERT_GT(lists.earliest_relist_time(i, path, 0.0, 0.0, Gravity(), lists.relist_distance_elsewhere()), until);
+      ASSERT_TRUE(lists.stays_listed_bent(i, path, 0.0, until, Gravity(), lists.relist_distance_elsewhere()));
     }
   }
 }
