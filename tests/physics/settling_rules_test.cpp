@@ -1,35 +1,27 @@
 // The rules of disks that come to rest, contact by contact: what counts as a support, what overlap a loaded contact
-// keeps, how others are pushed apart, and what supports of walls that move do.
+// keeps, how others are pushed apart.
+#include "tests/support/settling_rules.hpp"
+
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <functional>
 #include <vector>
 
 #include "core/disks/obstacle_cells.hpp"
-#include "core/physics/impact_tally.hpp"
 #include "core/physics/push_apart.hpp"
 #include "core/physics/resting.hpp"
-#include "core/physics/support_solver.hpp"
 #include "core/step/step_rounds.hpp"
 #include "tests/support/disks_by_hand.hpp"
 
 namespace carom {
 namespace {
 
-constexpr double g = 2.0;
-constexpr double dt = 0.01;
+using test::contact_of;
+using test::settling_rules;
 
-// A box 20 by 10 with walls of restitution 0.5, disks of 0.5 too.
-StepRules settling_rules() {
-  StepRules rules{test::box_of(20.0, 10.0), g, 0.5, dt, true};
-  rules.box.restitutions.fill(0.5);
-  return rules;
-}
-
-ContactEvent contact_of(DiskId id1, DiskId id2) {
-  return {0.0, id1, id2, id1, is_wall(id2) ? 0U : id2};
-}
+constexpr double g = test::settling_gravity;
+constexpr double dt = test::settling_dt;
 
 // An approach of up to 64 g dt where a disk of the contact has another one, of up to 2 g dt where it only lies on a
 // wall; two disks alone are none.
@@ -278,98 +270,6 @@ TEST(PushApart, LaysALoadedDiskBack) {
   }
 }
 
-// The only support of a set.
-Support begun(SupportSet& set, Disks& disks, const StepRules& rules, const ContactEvent& e, double force) {
-  for (auto* column : {&set.impulse, &set.counted, &set.contact_distance}) column->resize(1);
-  return with_view(disks, [&](const auto& d) {
-    begin_support(set, 0, d, rules, e, force);
-    return make_support(d, rules, e);
-  });
-}
-
-// A floor that comes up at 0.5 stops a disk that falls at 2 at 0.5, with the impulse m (2 + 0.5), and does work by it;
-// a fixed wall at 0.
-TEST(WallSupport, StopsADiskInTheFrameOfTheWall) {
-  for (const Side side : all_sides) {
-    for (const double wall_speed : {0.0, 0.5}) {
-      StepRules rules = settling_rules();
-      const auto s = static_cast<std::size_t>(side);
-      if (wall_speed > 0.0) {
-        rules.box.motions[s] = {SideMotion::Kind::steady, 0.0, wall_speed};
-        rules.box.step_walls(0.0, 1e-3);
-      }
-      const Vec2 n = inward_normal(side);
-      Disks disks = test::disks_of({{5.0, 5.0, -2.0 * n.x, -2.0 * n.y, 1.0, 3.0}});
-      SupportSet set;
-      const Support support = begun(set, disks, rules, contact_of(0, wall_partner(side)), 0.0);
-      set.v = {{disks.vx[0], disks.vy[0]}};
-      relax(set.v.data(), support, set.impulse[0]);
-      EXPECT_NEAR(set.v[0].x, wall_speed * n.x, 1e-12);
-      EXPECT_NEAR(set.v[0].y, wall_speed * n.y, 1e-12);
-      EXPECT_NEAR(set.impulse[0], 3.0 * (2.0 + wall_speed), 1e-12);
-      ImpactTally tally;
-      tally.add_load(wall_partner(side), support, borne(set, 0, support), rules.box);
-      EXPECT_NEAR(tally.wall_impulse[s].value(), 3.0 * (2.0 + wall_speed), 1e-12);
-      EXPECT_EQ(tally.wall_loads, 1U);
-      if (wall_speed == 0.0) continue;
-      EXPECT_NEAR(tally.side_energy[s].value(), 3.0 * 2.5 * 0.5, 1e-12);
-    }
-  }
-}
-
-// An inner wall that comes at (-0.3, 0.4), whose normal is (-3, 4) / 5: at 0.5 along it. It gives a disk the momentum
-// of the impulse, and the work of that at its velocity.
-TEST(WallSupport, OfAnInnerWallGivesMomentumAndWork) {
-  StepRules rules = settling_rules();
-  const Obstacle slope{1.0, 2.0, 4.0, 3.0, 0.0, 0.5, 0, ObstacleKind::wall, true};
-  WallMotion motion;
-  motion.pace = {SideMotion::Kind::steady, 0.0, 1.0};
-  motion.along = {-0.3, 0.4};
-  rules.box.inner_walls_move = true;
-  ObstacleCells cells({slope}, {motion}, rules.box);
-  rules.box.step_walls(0.0, 1e-3);
-  cells.follow(0.0, 1e-3);
-  rules.box.obstacles = &cells;
-  Disks disks = test::disks_of({{3.0 - 0.6, 3.5 + 0.8, 1.2, -1.6, 1.0, 3.0}});
-  SupportSet set;
-  const Support support = begun(set, disks, rules, contact_of(0, obstacle_partner(0)), 0.0);
-  set.v = {{disks.vx[0], disks.vy[0]}};
-  relax(set.v.data(), support, set.impulse[0]);
-  const double impulse = 3.0 * (2.0 + 0.5);
-  EXPECT_NEAR(set.impulse[0], impulse, 1e-11);
-  EXPECT_NEAR(set.v[0].x, -0.3, 1e-11);
-  EXPECT_NEAR(set.v[0].y, 0.4, 1e-11);
-  ImpactTally tally;
-  tally.add_load(obstacle_partner(0), support, borne(set, 0, support), rules.box);
-  ASSERT_EQ(tally.pushes.size(), 3U);
-  EXPECT_NEAR(tally.pushes[0].value(), 0.5 * impulse, 1e-11);
-  EXPECT_NEAR(tally.pushes[1].value(), -0.6 * impulse, 1e-11);
-  EXPECT_NEAR(tally.pushes[2].value(), 0.8 * impulse, 1e-11);
-  Counters counters;
-  tally.count_into(counters);
-  EXPECT_NEAR(counters.wall_work, 0.5 * impulse, 1e-11);
-  EXPECT_NEAR(counters.wall_push[0], -0.6 * impulse, 1e-11);
-}
-
-// A load acts all through the step: half its impulse times dt over the mass is the way. What the step before found is
-// where the solver begins, and later rounds count what is new.
-TEST(Load, ActsAllThroughTheStep) {
-  StepRules rules = settling_rules();
-  Disks disks = test::disks_of({{5.0, 5.0, 0.0, 0.0, 1.0, 1.0}, {7.0, 5.0, 0.0, 0.0, 1.0, 4.0}});
-  SupportSet set;
-  Support support{};
-  for (const int round : {0, 1}) {
-    rules.round = round;
-    support = begun(set, disks, rules, contact_of(0, 1), 6.0);
-    EXPECT_DOUBLE_EQ(set.impulse[0], 6.0 * dt);
-    set.impulse[0] += 0.25;
-    EXPECT_NEAR(borne(set, 0, support), (round == 0 ? 6.0 * dt + 0.25 : 0.25) * 2.0, 1e-15);
-  }
-  with_view(disks, [&](const auto& d) { shift_by_load(d, support, 8.0, dt); });
-  EXPECT_NEAR(disks.x[0], 5.0 - 0.5 * 8.0 * dt, 1e-15);
-  EXPECT_NEAR(disks.x[1], 7.0 + 0.5 * 8.0 * dt / 4.0, 1e-15);
-}
-
 // A disk displaced by half a percent of its radius is asked again, one that lies one percent in something is pressed.
 TEST(Rounds, GoOnForDisksThatAreDisplacedAndPressed) {
   Domain box = test::box_of(20.0, 10.0);
@@ -395,178 +295,6 @@ TEST(Rounds, GoOnForDisksThatAreDisplacedAndPressed) {
   };
   EXPECT_TRUE(pressed(0.031));
   EXPECT_FALSE(pressed(0.029));
-}
-
-// Disks in one place bear on each other along x, the way in which they are parted.
-TEST(Load, OfCoincidentDisksHasADirection) {
-  const StepRules rules = settling_rules();
-  Disks disks = test::disks_of({{5.0, 5.0, 1.0, 0.0, 1.0, 2.0}, {5.0, 5.0, -1.0, 0.0, 1.0, 2.0}});
-  const Support s = with_view(disks, [&](const auto& d) { return make_support(d, rules, contact_of(0, 1)); });
-  EXPECT_EQ(s.nx, 1.0);
-  EXPECT_EQ(s.ny, 0.0);
-  EXPECT_EQ(s.inverse1, 0.5);
-  EXPECT_EQ(s.effective, 1.0);
-}
-
-// Parts of a step are tallied apart: what supports bore counts where nothing collided, too.
-TEST(Load, CountsWhereNothingCollides) {
-  const StepRules rules = settling_rules();
-  Disks disks = test::disks_of({{5.0, 1.0, 0.0, 0.0, 1.0, 1.0}, {7.0, 1.0, 0.0, 0.0, 1.0, 1.0}});
-  SupportSet set;
-  for (const DiskId other : {DiskId{1}, wall_partner(Side::bottom)}) {
-    const Support support = begun(set, disks, rules, contact_of(0, other), 8.0);
-    ImpactTally part;
-    part.add_load(other, support, borne(set, 0, support), rules.box);
-    ImpactTally all;
-    all.add(part);
-    Counters counters;
-    all.count_into(counters);
-    EXPECT_DOUBLE_EQ(counters.virial, is_wall(other) ? 0.0 : 8.0 * dt * 2.0);
-    EXPECT_DOUBLE_EQ(counters.wall_impulse[2], is_wall(other) ? 8.0 * dt : 0.0);
-  }
-}
-
-// Of two disks by the mass that their contact feels; at a wall the impulse alone, whatever the radius.
-TEST(Load, IsOfTheMassThatTheContactFeels) {
-  const StepRules rules = settling_rules();
-  Disks disks = test::disks_of({{5.0, 0.5, 0.0, 0.0, 0.5, 3.0}, {6.0, 0.5, 0.0, 0.0, 0.5, 1.0}});
-  SupportSet set;
-  EXPECT_DOUBLE_EQ(begun(set, disks, rules, contact_of(0, 1), 8.0).effective, 0.75);
-  const Support at_wall = begun(set, disks, rules, contact_of(0, wall_partner(Side::bottom)), 8.0);
-  EXPECT_EQ(at_wall.effective, 3.0);
-  EXPECT_DOUBLE_EQ(borne(set, 0, at_wall), 8.0 * dt);
-}
-
-// Cycles of sweeps that change what a script says.
-struct ScriptedSweeps {
-  std::function<CycleFigures(int)> script;
-  double impulse = 0.0, mass = 1.0;  // of all supports
-  mutable int cycles = 0;
-  mutable std::vector<double> momenta;
-  mutable std::vector<int> watched, weighed;
-
-  template <Watch watch>
-  CycleFigures cycle() const {
-    ++cycles;
-    if (watch == Watch::nothing) return {};
-    watched.push_back(cycles);
-    if (watch == Watch::all) weighed.push_back(cycles);
-    return script(cycles);
-  }
-  void extrapolate(double momentum) const { momenta.push_back(momentum); }
-  SupportTotals totals() const {
-    SupportTotals all;
-    all.add(impulse, mass);
-    return all;
-  }
-};
-
-constexpr double fall = g * dt;
-
-CycleFigures changes(double largest, double strain = 0.0, double square = 0.0, double ahead = 1.0) {
-  CycleFigures figures;
-  figures.largest = largest;
-  figures.strain = strain;
-  figures.square.add(square);
-  figures.ahead.add(ahead);
-  return figures;
-}
-
-int cycles_of(const std::function<CycleFigures(int)>& script, double layers = 0.0) {
-  const ScriptedSweeps sweeps{script, layers * fall, 1.0, 0, {}, {}, {}};
-  solve_supports(settling_rules(), sweeps);
-  return sweeps.cycles;
-}
-
-// Twelve cycles, or twenty-four where something lands, and no more from where changes are 5e-4 of g dt, or of the
-// first.
-TEST(SupportCycles, AreMoreWhereSomethingLands) {
-  EXPECT_EQ(cycles_of([](int) { return changes(4.9e-4 * fall); }), 1);
-  EXPECT_EQ(cycles_of([](int k) { return changes(k < 2 ? fall : 4.9e-4 * fall); }), 2);
-  EXPECT_EQ(cycles_of([](int) { return changes(3.9 * fall); }), 12);
-  EXPECT_EQ(cycles_of([](int) { return changes(4.1 * fall); }), 24);
-  EXPECT_EQ(cycles_of([](int k) { return changes(k == 1 ? 5.0 : k < 14 ? 2.6e-3 : 2.4e-3); }), 16);
-}
-
-// They go on while disks would be pressed together by more than a thousandth of their radii in a step, 256 at most.
-TEST(SupportCycles, GoOnWhileDisksArePressedTogether) {
-  const double much = 1.1e-3 / dt, little = 0.9e-3 / dt;
-  EXPECT_EQ(cycles_of([&](int k) { return changes(fall, k < 99 ? much : little); }), 100);
-  EXPECT_EQ(cycles_of([&](int) { return changes(fall, much); }), 256);
-}
-
-// In a pile 200 layers high that trembles they go on to 40, or until it is calm; not where it lands.
-TEST(SupportCycles, GoOnWhileAPileTrembles) {
-  const double calm = 3e-4 * fall, trembling = fall;
-  EXPECT_EQ(cycles_of([&](int) { return changes(fall, 0.0, 1.1 * calm * calm); }, 201.0), 40);
-  EXPECT_EQ(cycles_of([&](int k) { return changes(fall, 0.0, (k < 20 ? 1.1 : 0.9) * calm * calm); }, 201.0), 20);
-  EXPECT_EQ(cycles_of([&](int) { return changes(fall, 0.0, 0.9 * trembling * trembling); }, 201.0), 40);
-  EXPECT_EQ(cycles_of([&](int) { return changes(fall, 0.0, 1.1 * trembling * trembling); }, 201.0), 12);
-}
-
-// Momentum grows with its age, and begins anew where it overshoots. The first two cycles are watched, and each fourth.
-TEST(SupportCycles, TakeMomentumUntilItOvershoots) {
-  const ScriptedSweeps sweeps{
-      [](int k) { return changes(fall, 0.0, 0.0, k == 4 ? -1.0 : 1.0); }, 0.0, 1.0, 0, {}, {}, {}};
-  solve_supports(settling_rules(), sweeps);
-  const std::vector<double> first(sweeps.momenta.begin(), sweeps.momenta.begin() + 6);
-  EXPECT_EQ(first, (std::vector<double>{0.0, 1.0 / 4.0, 2.0 / 5.0, 0.0, 1.0 / 4.0, 2.0 / 5.0}));
-  EXPECT_EQ(sweeps.momenta.size(), 11U);
-  EXPECT_EQ(sweeps.watched, (std::vector<int>{1, 2, 4, 8, 12}));
-  EXPECT_EQ(sweeps.weighed, (std::vector<int>{4, 8, 12}));
-}
-
-// Of parts the larger figures, and the sums.
-TEST(SupportCycles, HaveTheFiguresOfTheirParts) {
-  for (const bool first_larger : {true, false}) {
-    CycleFigures all = changes(first_larger ? 3.0 : 1.0, first_larger ? 0.5 : 0.25, 1.0, -2.0);
-    all.add(changes(first_larger ? 1.0 : 3.0, first_larger ? 0.25 : 0.5, 2.0, -3.0));
-    EXPECT_EQ(all.largest, 3.0);
-    EXPECT_EQ(all.strain, 0.5);
-    EXPECT_EQ(all.square.value(), 3.0);
-    EXPECT_EQ(all.ahead.value(), -5.0);
-  }
-}
-
-// Parts of a step that are tallied apart add up to the whole: collisions and crossings, what sides and inner walls
-// give, what the shear does and what sinks took.
-TEST(Tally, OfPartsIsThatOfTheWhole) {
-  const auto part = [](double x) {
-    ImpactTally tally;
-    tally.add(1, PairImpact{.virial = 2.0 * x, .happened = true, .inaccurate = true});
-    tally.add(1, PairImpact{.virial = x, .happened = true, .sheared = true, .shear_virial = 3.0 * x, .shear_work = x});
-    tally.add(1, PairImpact{.shear_work = 4.0 * x});
-    tally.add(wall_partner(Side::top),
-              WallImpact{.impulse = 3.0 * x, .energy = x, .happened = true, .inaccurate = true});
-    tally.add(wall_partner(Side::top), WallImpact{.energy = 16.0 * x});
-    tally.add(obstacle_partner(0), WallImpact{.impulse = x,
-                                              .energy = 5.0 * x,
-                                              .happened = true,
-                                              .inaccurate = true,
-                                              .pushed = true,
-                                              .momentum = {6.0 * x, 7.0 * x}});
-    tally.add_taken(1, x);
-    return tally;
-  };
-  ImpactTally all = part(0.25);
-  all.add(part(0.75));
-  EXPECT_EQ(all.inaccurate, 2U);
-  EXPECT_EQ(all.inaccurate_at_walls, 4U);
-  EXPECT_EQ(all.all_inaccurate(), 6U);
-  ASSERT_EQ(all.absence.size(), 1U);
-  EXPECT_EQ(all.absence[0].value(), 1.0);
-  Counters counters;
-  all.count_into(counters);
-  EXPECT_EQ(counters.collisions, 4U);
-  EXPECT_EQ(counters.wall_collisions, 4U);
-  EXPECT_EQ(counters.virial, 3.0);
-  EXPECT_EQ(counters.wall_impulse[3], 3.0);
-  EXPECT_EQ(counters.side_energy[3], 1.0);
-  EXPECT_EQ(counters.wall_work, 5.0);
-  EXPECT_EQ(counters.wall_push[0], 6.0);
-  EXPECT_EQ(counters.wall_push[1], 7.0);
-  EXPECT_EQ(counters.shear_virial, 3.0);
-  EXPECT_EQ(counters.shear_work, 1.0 + 4.0 + 16.0);
 }
 
 }  // namespace
