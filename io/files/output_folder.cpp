@@ -8,10 +8,12 @@
 #include <array>
 #include <cerrno>
 #include <mutex>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "core/base/check.hpp"
+#include "core/scene/scene_names.hpp"
 #include "io/files/checkpoint_names.hpp"
 #include "io/files/shell_word.hpp"
 
@@ -48,6 +50,16 @@ constexpr std::array result_names{"scene.toml",
                                   previous_checkpoint_name,
                                   checkpoint_name,
                                   "summary.json"};
+
+constexpr bool is_plot_of(std::string_view quantity, std::string_view name) {
+  return name.starts_with(quantity) && name.substr(quantity.size()) == ".svg";
+}
+
+// io/plots draws each quantity of an analysis into a file with its name.
+static_assert(std::all_of(quantity_names.begin(), quantity_names.end(), [](std::string_view quantity) {
+  return std::any_of(result_names.begin(), result_names.end(),
+                     [&](std::string_view name) { return is_plot_of(quantity, name); });
+}));
 
 bool is_checkpoint(std::string_view name) {
   return name == checkpoint_name || name == previous_checkpoint_name;
