@@ -14,9 +14,10 @@ std::unique_ptr<Engine> make_parallel_engine(const Scene& scene, State initial, 
       return make_parallel_rollback(scene, std::move(initial), threads);
     case Method::pairwise:
       return make_parallel_pairwise(scene, std::move(initial), threads);
-    default:
-      return make_parallel_exact(scene, std::move(initial), threads);
+    case Method::exact:
+      break;
   }
+  return make_parallel_exact(scene, std::move(initial), threads);
 }
 
 }  // namespace carom

@@ -104,9 +104,10 @@ std::unique_ptr<Engine> make_reference_engine(const Scene& scene, State initial,
       return make_reference_rollback(scene, std::move(initial), log);
     case Method::pairwise:
       return make_reference_pairwise(scene, std::move(initial), log);
-    default:
-      return make_reference_exact(scene, std::move(initial), 1.0, log);
+    case Method::exact:
+      break;
   }
+  return make_reference_exact(scene, std::move(initial), 1.0, log);
 }
 
 }  // namespace carom

@@ -204,10 +204,10 @@ bool draw_analysis(const std::string& folder, const Scene& scene, const Analysis
         return bond_figure(scene, record);
       case Quantity::bond_autocorrelation:
         return memory_figure(scene, record, series.bond_autocorrelation, "bond autocorrelation", "g6(t)");
-      default:
-        return series_figure(scene, record, series.collision_rate, "collision rate",
-                             "collisions per disk and unit time");
+      case Quantity::collision_rate:
+        break;
     }
+    return series_figure(scene, record, series.collision_rate, "collision rate", "collisions per disk and unit time");
   };
   for (std::size_t k = 0; k < quantity_names.size(); ++k) {
     if (!scene.analysis.wanted[k]) continue;
