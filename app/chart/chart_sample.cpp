@@ -21,8 +21,8 @@ namespace {
 // How often overlaps are measured in a run.
 constexpr int looks = 20;
 
-// Of this thread: others measure at the same time.
-double cpu_seconds() {
+// CPU time of this thread: others measure at the same time.
+double thread_seconds() {
   timespec t{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
@@ -131,9 +131,9 @@ void measure_rates(const ChartScene& scene, const Scene& s, const State& start, 
   begin_displacement(displacement, start.disks, s.box, 0.0);
   for (int look = 1; look <= looks; ++look) {
     const double until = look == looks ? s.run.t_end : s.run.t_end * look / looks;
-    const double before = cpu_seconds();
+    const double before = thread_seconds();
     while (engine->state().time < until) engine->step();
-    seconds += cpu_seconds() - before;
+    seconds += thread_seconds() - before;
     overlap = std::max(overlap, max_overlap(engine->state().disks, box_at(s.box, engine->state().time)));
     if (scene.figure == Figure::spread) look_at(displacement, engine->state().disks, s.box, engine->state().time);
   }
@@ -195,9 +195,9 @@ ShortRun run_fluid(std::size_t disks, Method method, double dt, int rounds) {
   for (int round = 0; round < rounds; ++round) {
     const auto engine = make_parallel_engine(scene_of(scene, 1, method, dt, scene.length), start, {1});
     engine->forget_paths();
-    const double before = cpu_seconds();
+    const double before = thread_seconds();
     while (engine->state().time < scene.length) engine->step();
-    run.cost = std::min(run.cost, (cpu_seconds() - before) / (static_cast<double>(disks) * scene.length));
+    run.cost = std::min(run.cost, (thread_seconds() - before) / (static_cast<double>(disks) * scene.length));
     run.steps = static_cast<double>(engine->state().counters.steps) / scene.length;
   }
   return run;

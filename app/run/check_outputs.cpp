@@ -48,7 +48,7 @@ constexpr double xyz_bytes = 134.0, xyz_spin_bytes = 21.0, xyz_single_bytes = 99
 constexpr double plot_bytes = 16e3, point_bytes = 19.0;
 
 // Processor time of this process and of those that it has waited for.
-double cpu_seconds() {
+double cpu_seconds_with_children() {
   double seconds = 0.0;
   for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
     rusage usage{};
@@ -181,7 +181,7 @@ Rehearsed rehearse(const Rehearsal& what, const fs::path& path, Count frames, bo
   const double every = scene.output.every > 0.0 ? scene.output.every : scene.run.t_end;
   const OutputFolder folder(path, scene.file, true);
   const auto start = WallClock::now();
-  const double cpu_before = cpu_seconds();
+  const double cpu_before = cpu_seconds_with_children();
   RunOutputs outputs(scene, folder, make_block_runner(what.choice));
   for (Count k = 0; k < frames; ++k) {
     const double time = static_cast<double>(k) * every;
@@ -190,7 +190,7 @@ Rehearsed rehearse(const Rehearsal& what, const fs::path& path, Count frames, bo
   }
   outputs.finish(false);
   r.wall = seconds_since(start);
-  r.cpu = cpu_seconds() - cpu_before;
+  r.cpu = cpu_seconds_with_children() - cpu_before;
   r.sizes = sizes_in(folder.unfinished());
   if (sample && outputs.analysis() != nullptr) r.sample_seconds = seconds_of_sample(*outputs.analysis(), what.tried);
   return r;
