@@ -188,7 +188,7 @@ Rehearsed rehearse(const Rehearsal& what, const fs::path& path, Count frames, bo
     outputs.frame(WholeDisks(moved(what.shown, scene, time), time), what.tried.state());
     HeldSignals::end_if_asked();
   }
-  outputs.finish(false);
+  outputs.finish(RunEnd::early);
   r.wall = seconds_since(start);
   r.cpu = cpu_seconds_with_children() - cpu_before;
   r.sizes = sizes_in(folder.unfinished());

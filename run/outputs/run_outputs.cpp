@@ -225,7 +225,7 @@ void RunOutputs::remove_old_pictures() {
   }
 }
 
-OutputMark RunOutputs::finish(bool whole) {
+OutputMark RunOutputs::finish(RunEnd end) {
   std::optional<MovieMark> movie;
   if (movie_) {
     try {
@@ -234,7 +234,7 @@ OutputMark RunOutputs::finish(bool whole) {
       lose_movie(error.what());
     }
   }
-  if (whole) {
+  if (end == RunEnd::whole) {
     remove_old_pictures();
     draw_plots();
   }

@@ -1,6 +1,7 @@
 // All files that a scene asks for, fed frame by frame.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -27,6 +28,9 @@ inline constexpr const char* without_ffmpeg =
     "ffmpeg is not installed: the movie becomes frames/frame_000001.png and so on";
 inline constexpr const char* without_gnuplot = "gnuplot is not installed: no plots are drawn";
 
+// Has a run come to t_end, or did it stop before?
+enum class RunEnd : std::uint8_t { whole, early };
+
 class RunOutputs {
  public:
   // Opens the files in the folder. run: shares out the work of a frame or sample; the files are the same. Throws
@@ -52,9 +56,9 @@ class RunOutputs {
   // Brings all that was written onto the disk and says where it stands. Between two frames, whenever wanted.
   OutputMark mark();
 
-  // Completes all files. After a run that stopped early (whole = false) no plots are drawn. Returns the mark from which
-  // a longer run could go on, if the scene asks for checkpoints or a plot was lost.
-  OutputMark finish(bool whole);
+  // Completes all files. After a run that stopped early no plots are drawn. Returns the mark from which a longer run
+  // could go on, if the scene asks for checkpoints or a plot was lost.
+  OutputMark finish(RunEnd end);
 
   // Pictures that gnuplot or ffmpeg failed to make cost the run nothing else: what failed, one entry each.
   const std::vector<std::string>& lost_plots() const { return lost_plots_; }

@@ -198,7 +198,7 @@ void SceneRun::keep_stopped(const PhysicsError& error) {
   } catch (const RunError& why) {
     last_state = fmt::format("; {}", why.what());
   }
-  files_->outputs.finish(false);
+  files_->outputs.finish(RunEnd::early);
   throw PhysicsError(fmt::format("{}; the run up to there is kept in {}{}", error.what(),
                                  files_->folder.keep_unfinished(), last_state));
 }
@@ -270,7 +270,7 @@ RunOutcome SceneRun::finished() {
   bool keeps_checkpoint = false;
   std::string lost_view;
   if (files_ != nullptr) {
-    const OutputMark mark = files_->outputs.finish(true);
+    const OutputMark mark = files_->outputs.finish(RunEnd::whole);
     lost_view = make_page();
     keeps_checkpoint = keep_last_checkpoint(mark);
     take_output_warnings();
