@@ -91,10 +91,11 @@ int program(int argc, char** argv, RankLead* lead) {
   occupy_standard_streams();
   end_with_parent();
   give_back_columns();
-  // A write that cannot be done shall return an error, which we report, rather than end the program.
+  // A write that cannot be done shall return an error, which is reported, rather than end the program.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
-  // Whoever started us may ignore the ends of children, and a program inherits that: nobody would tell how ours end.
+  // The program that started this one may ignore SIGCHLD, and that is inherited: waitpid() could then not say how a
+  // child ended.
   std::signal(SIGCHLD, SIG_DFL);
   try {
     kernel_set();  // a wrong CAROM_KERNELS is said before anything is done

@@ -26,7 +26,7 @@ Scene scene_of(const RunRecord& record, const SceneChanges& changes) {
   });
 }
 
-// A scene.toml that somebody has edited is written anew.
+// A scene.toml that was edited is written anew.
 void warn_of_other_scene(const CheckpointPlace& place, const RunRecord& record) {
   const fs::path file = present_path(place.folder, "scene.toml");
   if (!fs::exists(file)) return;

@@ -1,4 +1,4 @@
-// Files of results: what is written is there when they are closed, or the run hears of it.
+// Files of results: what is written is there when they are closed, or the run is told.
 #include "io/files/output_file.hpp"
 
 #include <gtest/gtest.h>
