@@ -374,7 +374,7 @@ TEST(Series, OneThatWasCutInItsHeadingIsTooShort) {
   }
   std::filesystem::resize_file(path, 20);
   try {
-    SeriesWriter(path, small_scene(), mark);
+    const SeriesWriter going_on(path, small_scene(), mark);
     FAIL() << "it went on";
   } catch (const std::exception& error) {
     EXPECT_THAT(error.what(), ::testing::HasSubstr("has 20 bytes; expected "));
