@@ -287,7 +287,8 @@ class Sweep {
     return process;
   }
 
-  // Removes what is not to be kept of a run that has ended. Returns why it failed; empty if not, and if we stopped it.
+  // Removes what is not to be kept of a run that has ended. Returns why it failed; empty where it did not, and where
+  // the sweep stopped it.
   std::string close(const SweepRun& run, int status) const {
     constexpr int stopped_early = 4;
     const bool stopped = status == stopped_early || status == 128 + SIGTERM;  // the latter where it had not quite begun
@@ -332,11 +333,10 @@ class Sweep {
 // One line a run that is left, for GNU parallel; afterwards `carom sweep` with the same arguments has only the table to
 // write.
 std::string parallel_script(const Sweep& sweep) {
-  std::string text =
-      "#!/bin/sh\n# Runs what is left of the sweep with GNU parallel, which must be installed: a process a core, each "
-      "on "
-      "one thread.\n# Its own options may follow, such as -j 4 for four runs at once; THREADS=2 before it gives each "
-      "process two.\n";
+  std::string text = R"(#!/bin/sh
+# Runs what is left of the sweep with GNU parallel, which must be installed: a process a core, each on one thread.
+# Its own options may follow, such as -j 4 for four runs at once; THREADS=2 before it gives each process two.
+)";
   text += fmt::format("parallel --will-cite --jobs {}% \"$@\" <<'RUNS'\n", std::max(1, 100 / sweep.ranks()));
   for (const SweepRun& run : sweep.runs()) {
     if (!sweep.finished(run)) text += sweep.shell_line(run) + " --threads \"${THREADS:-1}\"\n";

@@ -5,36 +5,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
-#include <vector>
+#include <tuple>
 
 #include "core/disks/obstacle_cells.hpp"
 #include "tests/support/disks_by_hand.hpp"
+#include "tests/support/tc_rules.hpp"
 
 namespace carom {
 namespace {
 
-constexpr double contact_time = 0.5;
-
-// A box 10 high and wide with walls of restitution 0.5, under the TC model.
-ExactRules tc_rules() {
-  ExactRules rules;
-  rules.box = test::box_of(10.0, 10.0);
-  rules.box.restitutions.fill(0.5);
-  rules.restitution = 0.5;
-  rules.contact_time = contact_time;
-  rules.constant = false;
-  return rules;
-}
-
-ExactDisk disk_at(double x, double y, double vx, double vy, double last_contact = -never) {
-  ExactDisk a;
-  a.path = {0.0, x, y, vx, vy};
-  a.mass = 2.0;
-  a.radius = 1.0;
-  a.last_contact = last_contact;
-  return a;
-}
+using test::contact_time;
+using test::disk_at;
+using test::tc_rules;
 
 // Luding and McNamara 1998: elastic where either disk collided less than contact_time ago; a contact that was longer
 // ago, by as much or more, is not.
@@ -186,148 +168,6 @@ TEST(TcHop, OffAFloorThatAccelerates) {
   EXPECT_EQ(meet_side_at(rules, 0.0, Side::bottom, left_behind).impulse, 0.0);
 }
 
-// The obstacles of the tests below.
-class TcObstacle : public ::testing::Test {
- protected:
-  // rules.box has this one.
-  void place(const Obstacle& o, const WallMotion& motion = {}) {
-    std::vector<WallMotion> motions;
-    if (o.moves) motions.push_back(motion);
-    rules.box.inner_walls_move = o.moves;
-    cells_ = std::make_unique<ObstacleCells>(std::vector<Obstacle>{o}, motions, rules.box);
-    rules.box.obstacles = cells_.get();
-  }
-
-  ExactRules rules = tc_rules();
-  const Obstacle peg{5.0, 5.0, 0.0, 0.0, 2.0, 0.5, 9, ObstacleKind::disk};
-  const Obstacle slope{1.0, 2.0, 8.0, 6.0, 0.0, 0.5, 0, ObstacleKind::wall};
-
- private:
-  std::unique_ptr<ObstacleCells> cells_;
-};
-
-// By the part of gravity that presses it there, from a fixed disk as from a slope: n = (-3, 4) / 5.
-TEST_F(TcObstacle, IsLeftWithAHop) {
-  rules.gravity = 0.8;
-  const double hop = 0.25 * 0.8 * 0.8 * contact_time;
-  place(peg);
-  ExactDisk on_peg = disk_at(5.0 - 1.8, 5.0 + 2.4, 0.0, 0.0);
-  WallImpact impact = meet_obstacle_at(rules, 0.0, 0, on_peg);
-  EXPECT_NEAR(on_peg.path.vx, -0.6 * hop, 1e-15);
-  EXPECT_NEAR(on_peg.path.vy, 0.8 * hop, 1e-15);
-  EXPECT_NEAR(impact.impulse, 2.0 * hop, 1e-15);
-  EXPECT_EQ(on_peg.last_contact, 0.0);
-  place(slope);
-  ExactDisk on_slope = disk_at(5.0 - 0.6, 5.0 + 0.8, 0.4, 0.3);
-  impact = meet_obstacle_at(rules, 0.0, 0, on_slope);
-  EXPECT_NEAR(on_slope.path.vx, 0.4 - 0.6 * hop, 1e-15);
-  EXPECT_NEAR(on_slope.path.vy, 0.3 + 0.8 * hop, 1e-15);
-  EXPECT_NEAR(impact.impulse, 2.0 * hop, 1e-15);
-}
-
-// One that comes in slowly leaves with the hop, not with its rebound and the hop.
-TEST_F(TcObstacle, IsLeftWithTheHopWhateverTheApproach) {
-  rules.gravity = 0.8;
-  place({1.0, 5.0, 8.0, 0.0, 0.0, 0.5, 0, ObstacleKind::wall});
-  ExactDisk slow = disk_at(5.0, 6.0, 0.0, -0.01);
-  EXPECT_NEAR(meet_obstacle_at(rules, 0.0, 0, slow).impulse, 2.0 * (0.01 + 0.1), 1e-15);
-  EXPECT_NEAR(slow.path.vy, 0.25 * 0.8 * contact_time, 1e-15);
-  ExactDisk fast = disk_at(5.0, 6.0, 0.0, -4.0);
-  meet_obstacle_at(rules, 0.0, 0, fast);
-  EXPECT_NEAR(fast.path.vy, 2.0, 1e-15);
-}
-
-TEST_F(TcObstacle, IsElasticShortlyAfterAContact) {
-  place(peg);
-  for (const bool held : {true, false}) {
-    ExactDisk a = disk_at(5.0, 8.0, 0.0, -2.0, held ? -0.25 : -0.5);
-    const WallImpact impact = meet_obstacle_at(rules, 0.0, 0, a);
-    EXPECT_NEAR(a.path.vy, held ? 2.0 : 1.0, 1e-15);
-    EXPECT_EQ(impact.inaccurate, held);
-    EXPECT_EQ(impact.lost_energy, !held);
-    EXPECT_EQ(a.last_contact, 0.0);
-  }
-  // A disk that only passes by has no contact.
-  ExactDisk passes = disk_at(5.0, 8.0, 1.0, 0.0);
-  const WallImpact impact = meet_obstacle_at(rules, 0.0, 0, passes);
-  EXPECT_FALSE(impact.happened);
-  EXPECT_FALSE(impact.lost_energy);
-  EXPECT_EQ(passes.last_contact, -never);
-}
-
-// Rough ones of e = 1 lose energy along their surfaces alone; not where the TC model holds the disk.
-TEST_F(TcObstacle, IsSmoothWhereItHoldsADisk) {
-  const Surfaces surfaces{0.5, {0.5, 0.1}, {0.5, 0.1}};
-  rules.surfaces = &surfaces;
-  Obstacle elastic = peg;
-  elastic.restitution = 1.0;
-  place(elastic);
-  for (const bool held : {true, false}) {
-    ExactDisk a = disk_at(5.0, 8.0, 0.0, -2.0, held ? 0.0 : -never);
-    a.spin = 3.0;
-    const WallImpact impact = meet_obstacle_at(rules, 0.0, 0, a);
-    EXPECT_EQ(a.spin == 3.0, held);
-    EXPECT_EQ(impact.inaccurate, held);
-    EXPECT_EQ(impact.lost_energy, !held);
-  }
-}
-
-// e = 1 - a v^(1/5), and v is a speed: whatever the size of the fixed disk is.
-TEST_F(TcObstacle, HasTheRestitutionOfTheSpeedOfApproach) {
-  RestitutionLaw law;
-  law.viscosity = 0.25;
-  rules.restitution = 0.0;
-  rules.law = &law;
-  place(peg);
-  ExactDisk a = disk_at(5.0, 8.0, 0.0, -32.0);
-  meet_obstacle_at(rules, 0.0, 0, a);
-  EXPECT_NEAR(a.path.vy, 0.5 * 32.0, 1e-12);  // 32^(1/5) = 2
-}
-
-TEST_F(TcObstacle, HasALeastRebound) {
-  rules.constant = true;
-  rules.contact_time = -1.0;
-  Obstacle sticks = peg;
-  sticks.restitution = 0.0;
-  place(sticks);
-  ExactDisk a = disk_at(5.0, 8.0, 0.0, -2.0);
-  meet_obstacle_at(rules, 0.0, 0, a);
-  EXPECT_NEAR(a.path.vy, 2.0 * least_rebound, 1e-27);
-}
-
-// In the frame of an inner wall that rises ever faster, as a sine before its turn: g + a presses disks on it.
-TEST_F(TcObstacle, ThatAcceleratesIsLeftWithAHigherHop) {
-  rules.gravity = {0.3, 0.8};
-  WallMotion motion;
-  motion.pace = {SideMotion::Kind::parabolas, 0.0, 0.0, 1.0, 4.0};
-  motion.along = {-0.15, -0.2};  // down at first, ever slower
-  Obstacle wall = slope;
-  wall.moves = true;
-  // n = (-3, 4) / 5 is turned to where gravity and the wall's acceleration press: both count along both axes.
-  place(wall, motion);
-  rules.box.move_walls(0.5);
-  const WallPlace now = motion.at(rules.box.clock);
-  const double gn = (0.3 * -0.6 + 0.8 * 0.8) + (now.acceleration.x * -0.6 + now.acceleration.y * 0.8);
-  ASSERT_NE(now.acceleration.x, 0.0);
-  const double hop = 0.25 * gn * contact_time;
-  ASSERT_GT(hop, 0.0);
-  ExactDisk a = disk_at(5.0 - 0.6 + now.shift.x, 5.0 + 0.8 + now.shift.y, now.velocity.x, now.velocity.y);
-  const WallImpact impact = meet_obstacle_at(rules, 0.0, 0, a);
-  EXPECT_NEAR(a.path.vx, now.velocity.x - 0.6 * hop, 1e-14);
-  EXPECT_NEAR(a.path.vy, now.velocity.y + 0.8 * hop, 1e-14);
-  EXPECT_NEAR(impact.energy, 2.0 * hop * (-0.6 * now.velocity.x + 0.8 * now.velocity.y), 1e-14);
-  EXPECT_NEAR(impact.impulse, 2.0 * hop, 1e-14);
-  EXPECT_NEAR(impact.momentum.x, -0.6 * 2.0 * hop, 1e-14);
-  EXPECT_NEAR(impact.momentum.y, 0.8 * 2.0 * hop, 1e-14);
-  // It does so for the half period of 2 at most, however long contacts are.
-  rules.contact_time = 100.0;
-  const double longer =
-      0.25 * ((0.3 * -0.6 + 0.8 * 0.8) * 100.0 + (now.acceleration.x * -0.6 + now.acceleration.y * 0.8) * 2.0);
-  ExactDisk b = disk_at(5.0 - 0.6 + now.shift.x, 5.0 + 0.8 + now.shift.y, now.velocity.x, now.velocity.y);
-  meet_obstacle_at(rules, 0.0, 0, b);
-  EXPECT_NEAR(b.path.vy, now.velocity.y + 0.8 * longer, 1e-12);
-}
-
 // A sum of reasons, each of which is enough.
 TEST(Dissipation, IsThatOfDisksLawsWallsSurfacesAndObstacles) {
   ExactRules rules;
@@ -401,22 +241,6 @@ TEST(TcHop, OffASideThatADiskLeavesIsNone) {
     EXPECT_EQ(a.spin, 3.0);
     EXPECT_NEAR(impact.impulse, 2.0 * (std::max(away, hop) - away), 1e-15);
   }
-}
-
-// A fixed disk rubs what it hits by the speed that the hit changes, whatever the distance of the centres; it rubs
-// nothing that only hops off.
-TEST_F(TcObstacle, RubsWhatItHits) {
-  const Surfaces surfaces{0.5, {0.5, 0.1}, {0.5, 0.1}};
-  rules.surfaces = &surfaces;
-  rules.gravity = 0.8;
-  place(peg);
-  ExactDisk hits = disk_at(5.0, 8.0, 3.0, -2.0);
-  meet_obstacle_at(rules, 0.0, 0, hits);
-  EXPECT_NEAR(hits.path.vx, 3.0 - 0.1 * 3.0, 1e-14);
-  ExactDisk hops = disk_at(5.0, 8.0, 3.0, 0.0);
-  meet_obstacle_at(rules, 0.0, 0, hops);
-  EXPECT_EQ(hops.path.vx, 3.0);
-  EXPECT_EQ(hops.spin, 0.0);
 }
 
 // Across the top of a sheared box the second disk's image collides, which moves faster by the jump. A disk that is out
