@@ -7,8 +7,8 @@ namespace carom {
 
 namespace {
 
-// A disk that has left the rows that are stored must be nearer to one end of them than to the other.
-constexpr std::int64_t least_rows_left_out = 2;
+// A disk that has left the cells that are stored must be nearer to one end of them than to the other.
+constexpr std::int64_t least_left_out = 2;
 
 // In a grid: kernels read keys as signed numbers of 32 bits, and a level of one row has two keys a cell.
 constexpr double most_cells = 1e9;
@@ -26,6 +26,19 @@ std::uint32_t cells_of_side(double length, double least, double most, bool perio
 // The smallest cell that still finds every neighbour.
 double least_cell(double radius, double margin) {
   return 2.0 * radius + 2.0 * (margin * 2.0 * radius);
+}
+
+// Those between two places along a side, in cells, or all of them.
+StoredCells stored_between(double low, double high, std::uint32_t cells_of_side, bool periodic) {
+  const std::int64_t cells = cells_of_side;
+  const auto cell_at = [&](double at) {
+    const auto cell = static_cast<std::int64_t>(std::floor(at));
+    return periodic ? cell : std::clamp<std::int64_t>(cell, 0, cells - 1);
+  };
+  const std::int64_t first = cell_at(low);
+  const std::int64_t count = cell_at(high) - first + 1;
+  if (count + least_left_out > cells) return {};
+  return {static_cast<std::uint32_t>((first % cells + cells) % cells), static_cast<std::uint32_t>(count)};
 }
 
 // How many cells so many disks get at most.
@@ -102,16 +115,18 @@ void keep_rows(CellGrid& grid, double low, double high) {
   }
 }
 
-void store_rows_between(const Domain& box, double low, double high, CellGrid& grid) {
+void store_cells_between(const Domain& box, Vec2 low, Vec2 high, CellGrid& grid) {
   grid.keys = 0;
   for (GridLevel& level : grid.levels) {
-    const auto row = [&](double y) { return static_cast<std::int64_t>(std::floor(y * level.rows_per_length)); };
-    const std::int64_t rows = level.rows;
-    const std::int64_t first = box.periodic_y() ? row(low) : std::clamp<std::int64_t>(row(low), 0, rows - 1);
-    const std::int64_t last = box.periodic_y() ? row(high) : std::clamp<std::int64_t>(row(high), 0, rows - 1);
-    if (last - first + 1 + least_rows_left_out <= rows) {
-      level.first_stored = static_cast<std::uint32_t>((first % rows + rows) % rows);
-      level.stored_rows = level.kept_rows = static_cast<std::uint32_t>(last - first + 1);
+    if (low.y < high.y) {
+      level.stored_rows =
+          stored_between(low.y * level.rows_per_length, high.y * level.rows_per_length, level.rows, box.periodic_y());
+      level.kept_rows = std::min(level.rows, level.stored_rows.count);
+    }
+    if (low.x < high.x) {
+      level.stored_columns = stored_between(low.x * level.columns_per_length, high.x * level.columns_per_length,
+                                            level.columns, box.periodic_x());
+      level.stride = std::min(level.columns, level.stored_columns.count) + 1;
     }
     level.first_key = grid.keys;
     grid.keys += level.keys();

@@ -19,12 +19,33 @@ inline constexpr double grid_margin = 0.1;
 // Radii of one class differ by less than this factor, so that no cell holds many disks however mixed the sizes are.
 inline constexpr double class_ratio = 2.0;
 
+// Which of the cells along a side are stored: so many from the first one on, perhaps round the box; as many as there
+// can be where all are.
+struct StoredCells {
+  std::uint32_t first = 0, count = 0xffffffffU;
+
+  // The place of a cell, of so many along the side, among those that are stored; of one that is not, that of the
+  // nearest one that is.
+  std::uint32_t place_of(std::uint32_t cell, std::uint32_t cells) const {
+    const std::uint32_t place = cell - first;
+    return place < count ? place : place_round_the_box(place, cells);
+  }
+
+ private:
+  // place: the cell less the first one, modulo 2^32.
+  std::uint32_t place_round_the_box(std::uint32_t place, std::uint32_t cells) const {
+    if (place >= cells) place += cells;
+    if (place < count) return place;
+    return place < count + (cells - count) / 2 ? count - 1 : 0;
+  }
+};
+
 // The grid of one size class. The cell in a row and a column has the key first_key + row * stride + column. Each row
 // ends in one empty cell, and one empty row follows the last, so that the neighbours of every cell can be looked up
 // without asking where it lies. Where only some rows are kept (keep_rows), first_key lies before the first key in use,
-// modulo 2^32, so that keys tell the row in the box. Where only some are stored (store_rows_between), they tell the
-// place among the stored rows. A tiled level is cut into bands of 2^band_shift columns and groups of 2^group_shift
-// rows, without the empty cells; a tile is what a band and a group have in common.
+// modulo 2^32, so that keys tell the row in the box. Where only some rows and columns are
+// stored (store_cells_between), they tell the places among those. A tiled level is cut into bands of 2^band_shift
+// columns and groups of 2^group_shift rows, without the empty cells; a tile is what a band and a group have in common.
 struct GridLevel {
   double largest_radius = 0.0;                 // of the class; length
   double cell_width = 0.0;                     // length
@@ -39,17 +60,15 @@ struct GridLevel {
   unsigned band_shift = 31;   // columns in a band: 2^band_shift
   unsigned group_shift = 31;  // rows in a group: 2^group_shift
   std::uint32_t band_keys = 0, group_keys = 0;
-  // The first of the rows that are stored, and how many there are: as many as there can be where all are.
-  std::uint32_t first_stored = 0, stored_rows = 0xffffffffU;
+  StoredCells stored_rows, stored_columns;
 
   // Of a level that is not tiled: how many keys it has, and the first of them.
   std::uint32_t keys() const { return (kept_rows + 1) * stride + 2; }
   std::uint32_t start_key() const { return first_key + first_row * stride; }
   bool has_row(std::uint32_t row) const { return row - first_row < kept_rows; }
-  // The place of a row among those that are stored; for a row that is not, that of the nearest one that is.
-  std::uint32_t place_of_row(std::uint32_t row) const {
-    const std::uint32_t place = row - first_stored;
-    return place < stored_rows ? place : place_round_the_box(place);
+  // The key of a cell of the box, or of the nearest one that is stored.
+  std::uint32_t stored_key(std::uint32_t row, std::uint32_t column) const {
+    return key_at(stored_rows.place_of(row, rows), stored_columns.place_of(column, columns));
   }
   std::uint32_t columns_left_in_band(std::uint32_t column) const {
     return (1U << band_shift) - (column & ((1U << band_shift) - 1U));
@@ -65,14 +84,6 @@ struct GridLevel {
   }
   std::uint32_t key_at(std::uint32_t row, std::uint32_t column) const {
     return first_key + key_of_row(row) + key_of_column(column);
-  }
-
- private:
-  // place: the row less first_stored, modulo 2^32. The rows may be stored round the bottom and the top of the box.
-  std::uint32_t place_round_the_box(std::uint32_t place) const {
-    if (place >= rows) place += rows;
-    if (place < stored_rows) return place;
-    return place < stored_rows + (rows - stored_rows) / 2 ? stored_rows - 1 : 0;
   }
 };
 
@@ -112,16 +123,16 @@ bool is_bounded_by_disks(const Domain& box, double largest_radius, const std::ve
 // found near no place. Precondition: the grid is not tiled, and all its rows are kept.
 void keep_rows(CellGrid& grid, double low, double high);
 
-// Only the rows of cells between these heights are stored, which may lie across the bottom and the top of a periodic
-// box. A disk elsewhere is in the row that is nearest among those stored. Where the others would be few, all stay.
-// Precondition as for keep_rows.
-void store_rows_between(const Domain& box, double low, double high, CellGrid& grid);
+// Only the cells of the rectangle between these two places are stored, which may lie across the sides of a periodic
+// box. A disk elsewhere is in the row and the column that are nearest among those stored. Where the other rows, or
+// columns, would be few, all stay; so they do where `low` is not below `high`. Precondition as for keep_rows.
+void store_cells_between(const Domain& box, Vec2 low, Vec2 high, CellGrid& grid);
 
 inline std::uint32_t row_at(const GridLevel& level, double y) {
   return cell_index(y * level.rows_per_length, level.rows);
 }
 inline std::uint32_t key_of(const GridLevel& level, double x, double y) {
-  return level.key_at(level.place_of_row(row_at(level, y)), cell_index(x * level.columns_per_length, level.columns));
+  return level.stored_key(row_at(level, y), cell_index(x * level.columns_per_length, level.columns));
 }
 
 }  // namespace carom

@@ -115,8 +115,7 @@ void keep_tiles_between(const Domain& box, double low, double high, CellGrid& gr
   const auto skipped = static_cast<std::uint32_t>((first % groups + groups) % groups);
   const bool wide = box.width >= box.height;
   for (GridLevel& level : grid.levels) {
-    level.first_stored = skipped << level.group_shift;
-    level.stored_rows = kept << level.group_shift;
+    level.stored_rows = {skipped << level.group_shift, kept << level.group_shift};
     if (wide) level.band_keys = kept * grid.tile_keys;
   }
   grid.tiles = grid.tiles / groups * kept;

@@ -1,61 +1,105 @@
-// The box cut into parts across its longer side, with about as much work each.
+// The box cut into parts with about as much work each: into pieces along either axis.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
+#include "core/base/types.hpp"
 #include "core/disks/disks.hpp"
 #include "core/disks/domain.hpp"
+#include "parallel/exact/part_ends.hpp"
 
 namespace carom {
 
-struct BoxCut {
-  bool along_x = false;  // parts follow each other along x
+// How many pieces along either axis.
+struct PieceCounts {
+  std::size_t x = 1, y = 1;
+
+  std::size_t parts() const { return x * y; }
+};
+
+// The pieces along one axis. Lengths.
+struct AxisCut {
   bool periodic = false;
-  double side = 0.0;         // length
-  double halo = 0.0;         // how wide halos are; length
-  std::vector<double> line;  // parts + 1, from 0 to the side
+  double side = 0.0;
+  std::vector<double> line;  // pieces + 1, from 0 to the side
 
-  std::size_t parts() const { return line.size() - 1; }
-  double low(std::size_t part) const { return line[part]; }
-  double high(std::size_t part) const { return line[part + 1]; }
-  const std::vector<double>& coordinates(const Disks& d) const { return along_x ? d.x : d.y; }
+  std::size_t pieces() const { return line.size() - 1; }
+  double low(std::size_t piece) const { return line[piece]; }
+  double high(std::size_t piece) const { return line[piece + 1]; }
+  double width(std::size_t piece) const { return high(piece) - low(piece); }
 
-  // Is there another part below or above this one?
-  bool has_below(std::size_t part) const { return periodic || part > 0; }
-  bool has_above(std::size_t part) const { return periodic || part + 1 < parts(); }
-  // Rounding may have led a disk out of a box between walls.
-  bool owns(std::size_t part, double c) const {
-    return (c >= low(part) || part == 0) && (c < high(part) || part + 1 == parts());
+  // Is there another piece below or above this one?
+  bool has_below(std::size_t piece) const { return piece > 0 || is_ring(); }
+  bool has_above(std::size_t piece) const { return piece + 1 < pieces() || is_ring(); }
+  // The pieces next to this one; itself where there is none.
+  std::size_t below(std::size_t piece) const {
+    return !has_below(piece) ? piece : piece == 0 ? pieces() - 1 : piece - 1;
   }
-  // How far a place is below the part's lower end (above its upper end), round the box along a period; negative where
-  // it is not.
-  double below(std::size_t part, double c) const { return round_the_box(low(part) - c); }
-  double above(std::size_t part, double c) const { return round_the_box(c - high(part)); }
-  bool in_halo(std::size_t part, double c) const {
-    const double b = below(part, c);
-    const double a = above(part, c);
-    return (has_below(part) && b >= 0.0 && b <= halo) || (has_above(part) && a >= 0.0 && a <= halo);
+  std::size_t above(std::size_t piece) const {
+    return !has_above(piece) ? piece : piece + 1 == pieces() ? 0 : piece + 1;
   }
-
-  // The parts next to this one; itself where there is none.
-  std::size_t part_below(std::size_t part) const {
-    return !has_below(part) ? part : part == 0 ? parts() - 1 : part - 1;
+  // The piece that owns what is at a coordinate. Rounding may have led a disk out of a box between walls.
+  std::size_t piece_at(double c) const {
+    return static_cast<std::size_t>(std::upper_bound(line.begin() + 1, line.end() - 1, c) - line.begin()) - 1;
   }
-  std::size_t part_above(std::size_t part) const {
-    return !has_above(part) ? part : part + 1 == parts() ? 0 : part + 1;
-  }
-  // Is it the place of an own disk that is in the halo of the part below (above)? Computed as that part does, so that
-  // both say the same whatever rounding does.
-  bool is_known_below(std::size_t part, double c) const {
-    return owns(part, c) && has_below(part) && above(part_below(part), c) <= halo;
-  }
-  bool is_known_above(std::size_t part, double c) const {
-    return owns(part, c) && has_above(part) && below(part_above(part), c) <= halo;
+  // Is a coordinate beyond an end of the piece, by no more than this?
+  bool in_halo(std::size_t piece, double c, double halo) const {
+    const double b = round_the_box(low(piece) - c);
+    const double a = round_the_box(c - high(piece));
+    return (has_below(piece) && b >= 0.0 && b <= halo) || (has_above(piece) && a >= 0.0 && a <= halo);
   }
 
  private:
+  bool is_ring() const { return periodic && pieces() > 1; }
+  // From an end to what is beyond it; negative where it is not.
   double round_the_box(double d) const { return periodic && d < 0.0 ? d + side : d; }
+};
+
+// Part k is what piece k % (pieces along x) along x and piece k / (pieces along x) along y have in common.
+struct BoxCut {
+  AxisCut x, y;
+  double halo = 0.0;  // how wide halos are; length
+
+  std::size_t parts() const { return x.pieces() * y.pieces(); }
+  std::size_t column(std::size_t part) const { return part % x.pieces(); }
+  std::size_t row(std::size_t part) const { return part / x.pieces(); }
+  std::size_t part_of(std::size_t column, std::size_t row) const { return row * x.pieces() + column; }
+  // The part that owns what is at a place.
+  std::size_t part_at(Vec2 at) const { return part_of(x.piece_at(at.x), y.piece_at(at.y)); }
+
+  // Calls visit(part) for the part that owns a place, and for each one that has it in its halo.
+  template <class Visit>
+  void visit_parts_at(Vec2 at, Visit&& visit) const {
+    const Pieces columns = pieces_at(x, at.x);
+    const Pieces rows = pieces_at(y, at.y);
+    for (std::size_t r = 0; r < rows.count; ++r) {
+      for (std::size_t c = 0; c < columns.count; ++c) visit(part_of(columns.piece[c], rows.piece[r]));
+    }
+  }
+
+  // Where a part ends, and which parts are round it.
+  PartEnds ends_of(std::size_t part) const;
+
+ private:
+  // The one that owns a coordinate, and those that have it in their halos.
+  struct Pieces {
+    std::array<std::size_t, 3> piece;
+    std::size_t count = 1;
+  };
+  // Pieces are as wide as a halo, so that no other one has it.
+  Pieces pieces_at(const AxisCut& axis, double c) const {
+    Pieces found{{axis.piece_at(c)}, 1};
+    const std::size_t own = found.piece[0];
+    const std::size_t below = axis.below(own);
+    const std::size_t above = axis.above(own);
+    if (below != own && axis.in_halo(below, c, halo)) found.piece[found.count++] = below;
+    if (above != own && above != below && axis.in_halo(above, c, halo)) found.piece[found.count++] = above;
+    return found;
+  }
 };
 
 // How much work the disks of a former cut were: work[k] for each disk of part k, in any unit. Without parts, 1 for each
@@ -64,11 +108,17 @@ struct PartWork {
   BoxCut cut;
   std::vector<double> work;
 
-  double at(double c) const;
+  double at(Vec2 place) const { return work.empty() ? 1.0 : work[cut.part_at(place)]; }
 };
 
-// Cuts the box into at most so many parts. halo: length. Parts are at least as wide as a halo; where they would not be,
-// there are fewer.
-BoxCut cut_box(const Disks& disks, const Domain& box, std::size_t parts, double halo, const PartWork& before = {});
+// The pieces that make so many parts, of those ways that leave all of them at least `least` halos wide, with the fewest
+// ghosts if disks are spread evenly; a single part where there is no such way. halo: length.
+PieceCounts best_pieces(std::size_t parts, const Domain& box, double halo, double least);
+// How many disks the parts have together, over those of the box.
+double share_with_ghosts(PieceCounts pieces, const Domain& box, double halo);
+
+// Cuts the box into at most so many pieces along either axis. halo: length. Pieces are at least as wide as a halo;
+// where they would not be, there are fewer.
+BoxCut cut_box(const Disks& disks, const Domain& box, PieceCounts pieces, double halo, const PartWork& before = {});
 
 }  // namespace carom

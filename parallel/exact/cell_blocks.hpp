@@ -10,28 +10,29 @@
 
 namespace carom {
 
-// Is every stored row in this span, which may go on at the other end of the box?
-inline bool has_stored_rows(const GridLevel& level, Span rows) {
-  const std::uint32_t first = level.first_stored;
-  const std::uint32_t ahead = first >= rows.first ? first - rows.first : level.rows - rows.first + first;
-  return ahead + level.stored_rows <= rows.count;
+// Is every stored cell in this span, of so many cells along the side, which may go on at its other end?
+inline bool has_all_stored(StoredCells stored, std::uint32_t cells, Span span) {
+  const std::uint32_t ahead =
+      stored.first >= span.first ? stored.first - span.first : cells - span.first + stored.first;
+  return ahead + stored.count <= span.count;
 }
 
-// For a span of rows of the box, the places of the rows among those that are stored. Where the span reaches from rows
-// nearer to the last stored row to rows nearer to the first, it is all stored rows: disks may have flown there, and of
-// two that are near each other each must find the other. So it is where the span has them all: its last row may lie
+// For a span of cells along a side, the places of those among the ones that are stored. Where the span reaches from
+// cells nearer to the last one stored to cells nearer to the first, it is all of them: disks may have flown there, and
+// of two that are near each other each must find the other. So it is where the span has them all: its last cell may lie
 // nearer, round the box, to the first one stored.
-inline Span stored_span(const GridLevel& level, Span rows) {
-  if (rows.count == level.rows) return {0, std::min(level.rows, level.stored_rows)};
-  if (level.stored_rows >= level.rows) return rows;
-  if (has_stored_rows(level, rows)) return {0, level.stored_rows};
-  const std::uint32_t end = rows.first + rows.count - 1;
-  const std::uint32_t first = level.place_of_row(rows.first);
-  const std::uint32_t last = level.place_of_row(end < level.rows ? end : end - level.rows);
-  return last >= first ? Span{first, last - first + 1} : Span{0, level.stored_rows};
+inline Span stored_span(StoredCells stored, std::uint32_t cells, Span span) {
+  if (span.count == cells) return {0, std::min(cells, stored.count)};
+  if (stored.count >= cells) return span;
+  if (has_all_stored(stored, cells, span)) return {0, stored.count};
+  const std::uint32_t end = span.first + span.count - 1;
+  const std::uint32_t first = stored.place_of(span.first, cells);
+  const std::uint32_t last = stored.place_of(end < cells ? end : end - cells, cells);
+  return last >= first ? Span{first, last - first + 1} : Span{0, stored.count};
 }
 
-// Calls visit(block) for blocks that together are the cells of these rows and columns of a level.
+// Calls visit(block) for blocks that together are the cells of these rows and columns of a level, spans of those that
+// are stored.
 template <class Visit>
 void for_each_cell_block(const GridLevel& level, Span rows, Span columns, Visit&& visit) {
   for (std::uint32_t left = columns.count, column = columns.first; left > 0;) {
@@ -47,6 +48,13 @@ void for_each_cell_block(const GridLevel& level, Span rows, Span columns, Visit&
     left -= width;
     column = column + width < level.columns ? column + width : 0;
   }
+}
+
+// The same for rows and columns of the box, of which perhaps not all are stored.
+template <class Visit>
+void for_each_stored_block(const GridLevel& level, Span rows, Span columns, Visit&& visit) {
+  for_each_cell_block(level, stored_span(level.stored_rows, level.rows, rows),
+                      stored_span(level.stored_columns, level.columns, columns), visit);
 }
 
 // The cell that follows the last one of a block.

@@ -67,10 +67,7 @@ class DiskProgress {
   // The same bits where each thread has a part of the box with a halo (HaloPart). There, `ghost` marks the disks of the
   // halo.
   enum HaloMark : std::uint32_t {
-    known_below = 1,  // the part below has the disk in its halo
-    known_above = 2,  // that above does
-    crosses = 4,      // may have come beyond the part's ends since the lists were built
-    met_own = 8       // a ghost that a disk of the part has met in the window
+    met_own = 1  // a ghost that a disk of the part has met in the window
   };
 
   constexpr DiskProgress() = default;  // active

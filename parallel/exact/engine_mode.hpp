@@ -33,7 +33,9 @@ struct ListLayout {
   bool looks_ahead = false;
   // How many disks there are in the whole box, where a rank or a part has but some of them; 0: it has all.
   std::size_t disks_of_box = 0;
-  double low = 0.0, high = 0.0;  // then its disks lie about between these heights; length
+  // Then its disks lie about in the rectangle between these two places; along an axis on which low is not below high,
+  // anywhere in the box. Lengths.
+  Vec2 low{}, high{};
   // Then the largest radius in the whole box: lists of disks that are hardly smaller take up larger ones, too. Length.
   double largest_of_box = 0.0;
   // By how much every radius may grow while lists are in use, which takes as much off the skin; length.
@@ -95,9 +97,9 @@ inline ListLayout choose_layout(std::size_t disks, const Domain& box, bool regio
           .looks_ahead = disks / regions > executor.grain(disks_in_cache)};
 }
 
-// The layout for a part of the box and its halo, which have so many disks together: one calendar. low, high: the part
-// has cells between these heights alone; of all heights if low is not below high.
-inline ListLayout layout_of_part(std::size_t disks, std::size_t disks_of_box, double low, double high) {
+// The layout for a part of the box and its halo, which have so many disks together: one calendar. low, high: as in
+// ListLayout.
+inline ListLayout layout_of_part(std::size_t disks, std::size_t disks_of_box, Vec2 low, Vec2 high) {
   ListLayout layout;
   layout.looks_ahead = disks > disks_in_cache;
   layout.regions = 1;
@@ -119,8 +121,8 @@ inline ListLayout layout_of_rank(std::size_t disks, std::size_t disks_of_box, do
   layout.relist_share = rank_relist_share;
   layout.looks_ahead = disks > executor.grain(disks_in_cache);
   layout.disks_of_box = disks_of_box;
-  layout.low = low;
-  layout.high = high;
+  layout.low.y = low;
+  layout.high.y = high;
   return layout;
 }
 

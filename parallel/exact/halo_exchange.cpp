@@ -2,6 +2,7 @@
 // ghosts become own disks.
 #include <algorithm>
 #include <bit>
+#include <cstdint>
 
 #include "core/physics/exact_path.hpp"
 #include "parallel/exact/halo_part.hpp"
@@ -48,15 +49,16 @@ void HaloPart::compare_with(const HaloParts& parts) {
     Ghost& ghost = ghosts_[g];
     const HaloPart& owner = *parts[ghost.part];
     DiskRecord& here = record(ghost.index);
-    const DiskRecord& there = owner.run_.window().record[owner.own_[ghost.place]];
-    const bool concerns = here.progress.has(DiskProgress::met_own) || there.progress.has(DiskProgress::crosses);
+    const std::uint32_t i = owner.own_[ghost.place];
+    const bool may_be_here = (owner.run_.window().others[i].may_reach & owner.neighbours().bit_of(number_)) != 0;
+    const bool concerns = may_be_here || here.progress.has(DiskProgress::met_own);
     here.progress.clear(DiskProgress::met_own);
     const bool is_as_there = goes_as_there(ghost, owner);
     if (is_as_there && !concerns) [[likely]]
       continue;
-    const double depth = beyond_end(there.path);
+    const double depth = beyond_end(owner.run_.window().record[i].path);
     if (concerns) use_.deepest = std::max(use_.deepest, depth);
-    // It has come beyond its owner's end, so that it concerns this part.
+    // It has come here, so that it concerns this part.
     if (depth < -inside_share * halo_) inside_.push_back(g);
     if (is_as_there) continue;
     agrees_ = agrees_ && !concerns;
@@ -98,54 +100,51 @@ void HaloPart::replace_path(Ghost& ghost, const HaloPart& owner) {
 double HaloPart::beyond_end(const PathSegment& path) const {
   const WindowState& window = run_.window();
   const PathSegment p = carried_to(path, window.slice_stop(), window.rules.gravity);
-  const KnownBand& between = window.part.between;
-  const double d = between.from_centre(window.part.coordinate({p.x, p.y}));
-  return std::max(d - between.above, between.below - d);
+  return std::max(ends().x.beyond(p.x), ends().y.beyond(p.y));
 }
 
+// A disk that is across a period seems to be far outside, and is looked at as well.
 void HaloPart::find_offers(const Disks& all) {
-  offers_below_.clear();
-  offers_above_.clear();
-  const std::vector<double>& c = ends().along_x ? all.x : all.y;
-  const KnownBand& between = ends().between;
-  const double low = between.below + halo_;
-  const double high = between.above - halo_;
+  offers_.clear();
+  const KnownBand& x = ends().x.between;
+  const KnownBand& y = ends().y.between;
+  const auto is_inside = [this](const KnownBand& ends, double d) {
+    return d > ends.below + halo_ && d < ends.above - halo_;
+  };
   for (std::uint32_t place = 0; place < own_.size(); ++place) {
     if (own_[place] == none) continue;
-    const double at = c[slots_[own_[place]]];
-    const double d = at - between.centre;
-    if (d <= low || d >= high) [[unlikely]]
-      offer(place, between.from_centre(at));
+    const std::uint32_t slot = slots_[own_[place]];
+    const Vec2 at{all.x[slot], all.y[slot]};
+    if (!is_inside(x, at.x - x.centre) || !is_inside(y, at.y - y.centre)) [[unlikely]]
+      offer(place, at);
   }
 }
 
 // Also asks anew whether the disk may come beyond an end.
-void HaloPart::offer(std::uint32_t place, double from_centre) {
+void HaloPart::offer(std::uint32_t place, Vec2 at) {
   const std::uint32_t i = own_[place];
-  DiskRecord& disk = record(i);
-  const bool known_below = disk.progress.has(DiskProgress::known_below);
-  const bool known_above = disk.progress.has(DiskProgress::known_above);
-  const bool below = from_centre <= ends().between.below + halo_ && !known_below;
-  const bool above = from_centre >= ends().between.above - halo_ && !known_above;
-  if (below || (above && is_one_of_two())) {
-    disk.progress.set(DiskProgress::known_below);
-    offers_below_.push_back({place, slots_[i]});
+  const auto steps = [this](const KnownBand& ends, double c) {
+    const double d = ends.from_centre(c);
+    return PieceSteps{d <= ends.below + halo_, true, d >= ends.above - halo_};
+  };
+  const unsigned near = ends().bits_of(steps(ends().x.between, at.x), steps(ends().y.between, at.y));
+  OtherParts& others = this->others(i);
+  const unsigned fresh = near & ~unsigned{others.known_to};
+  others.known_to = static_cast<std::uint8_t>(others.known_to | fresh);
+  for (unsigned left = fresh; left != 0; left &= left - 1) {
+    offers_.push_back({place, slots_[i], neighbours().part(static_cast<std::size_t>(std::countr_zero(left)))});
   }
-  if (above || (below && is_one_of_two())) {
-    disk.progress.set(DiskProgress::known_above);
-    if (!is_one_of_two()) offers_above_.push_back({place, slots_[i]});
-  }
-  if (!disk.progress.has(DiskProgress::crosses)) return;
-  disk.progress.clear(DiskProgress::crosses);
+  if (others.may_reach == 0) return;
+  others.may_reach = 0;
   run_.note_listing(i);
 }
 
 void HaloPart::take_offers(const Disks& all, const HaloParts& parts) {
-  if (above_ != number_) {
-    for (const Offer& offer : parts[above_]->offers_below_) add_ghost(all, above_, offer);
-  }
-  if (below_ != number_) {
-    for (const Offer& offer : parts[below_]->offers_above_) add_ghost(all, below_, offer);
+  for (std::size_t k = 0; k < neighbours().count(); ++k) {
+    const std::uint16_t owner = neighbours().part(k);
+    for (const Offer& offer : parts[owner]->offers_) {
+      if (offer.to == number_) add_ghost(all, owner, offer);
+    }
   }
 }
 
@@ -159,6 +158,7 @@ void HaloPart::add_ghost(const Disks& all, std::uint16_t owner, const Offer& off
   append_from(all.radius, slot, d.radius);
   append_from(all.mass, slot, d.mass);
   append_from(all.spin, slot, d.spin);
+  run_.window().others.emplace_back();
   run_.append_last_disk({all.x[slot], all.y[slot]});
   see_radius(all.radius_of(slot));
   const auto i = static_cast<std::uint32_t>(d.size() - 1);
@@ -173,28 +173,48 @@ void HaloPart::take_over(const HaloParts& parts) {
   inside_.clear();
 }
 
-// Not where a third part has the disk as a ghost, too, and would have to be told who owns it.
+// Other parts that have the disk as a ghost are told who owns it now.
 void HaloPart::own_ghost(std::size_t number, const HaloParts& parts) {
   const Ghost ghost = ghosts_[number];
   HaloPart& owner = *parts[ghost.part];
   std::uint32_t& there = owner.own_[ghost.place];
-  DiskProgress& progress = owner.record(there).progress;
-  if (progress.has(DiskProgress::known_below) && progress.has(DiskProgress::known_above) && !is_one_of_two()) return;
   const auto place = static_cast<std::uint32_t>(own_.size());
+  std::uint8_t known = neighbours().bit_of(ghost.part);
+  for (std::size_t k = 0; k < owner.neighbours().count(); ++k) {
+    const std::uint16_t other = owner.neighbours().part(k);
+    if (other == number_ || (owner.others(there).known_to >> k & 1U) == 0) continue;
+    // It would not be told where the disk goes.
+    if (neighbours().bit_of(other) == 0) return;
+    known = static_cast<std::uint8_t>(known | neighbours().bit_of(other));
+  }
+  for (std::size_t k = 0; k < neighbours().count(); ++k) {
+    const std::uint16_t other = neighbours().part(k);
+    if (other != ghost.part && (known >> k & 1U) != 0) {
+      parts[other]->change_owner(ghost.part, ghost.place, number_, place);
+    }
+  }
   own_.push_back(ghost.index);
-  DiskRecord& disk = record(ghost.index);
-  disk.progress = DiskProgress();
-  if (ghost.part == below_) disk.progress.set(DiskProgress::known_below);
-  if (ghost.part == above_) disk.progress.set(DiskProgress::known_above);
+  record(ghost.index).progress = DiskProgress();
+  others(ghost.index) = {known, 0};
   run_.note_listing(ghost.index);
   ghosts_[number] = ghosts_.back();
   ghosts_.pop_back();
+  DiskProgress& progress = owner.record(there).progress;
   progress = DiskProgress();
   progress.set(DiskProgress::ghost);
+  owner.others(there) = {};
   owner.ghosts_.push_back({there, place, number_, 0});
   there = none;
   run_.set_own(++own_count_);
   owner.run_.set_own(--owner.own_count_);
+}
+
+// The ghost whose owner was part `from`.
+void HaloPart::change_owner(std::uint16_t from, std::uint32_t place, std::uint16_t to, std::uint32_t new_place) {
+  const auto is_it = [&](const Ghost& ghost) { return ghost.part == from && ghost.place == place; };
+  const auto ghost = std::find_if(ghosts_.begin(), ghosts_.end(), is_it);
+  ghost->part = to;
+  ghost->place = new_place;
 }
 
 }  // namespace carom

@@ -1,7 +1,7 @@
 #include "parallel/exact/halo_part.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 #include "core/disks/disk_columns.hpp"
 
@@ -33,30 +33,28 @@ void HaloPart::give(const std::vector<T>& column, std::vector<T>& all) const {
   }
 }
 
-void HaloPart::take_disks(const Disks& all, const BoxCut& cut, std::size_t part) {
-  // Nothing of a part's last windows is needed to build it, and building takes as much.
+void HaloPart::release_windows(const Disks& all) {
   if (all.size() > disks_of_much_memory) run_.release_memory();
+}
+
+void HaloPart::take_disks(const Disks& all, const BoxCut& cut, std::size_t part, DisksOfPart&& disks) {
   number_ = static_cast<std::uint16_t>(part);
-  below_ = static_cast<std::uint16_t>(cut.part_below(part));
-  above_ = static_cast<std::uint16_t>(cut.part_above(part));
   halo_ = cut.halo;
-  const std::vector<double>& c = cut.coordinates(all);
-  const auto is_here = [&](double at) { return cut.owns(part, at) || cut.in_halo(part, at); };
-  own_count_ =
-      static_cast<std::size_t>(std::count_if(c.begin(), c.end(), [&](double at) { return cut.owns(part, at); }));
-  const auto count = static_cast<std::size_t>(std::count_if(c.begin(), c.end(), is_here));
-  slots_.clear();
-  slots_.reserve(count);
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    if (is_here(c[k])) slots_.push_back(static_cast<std::uint32_t>(k));
-  }
+  own_count_ = disks.own;
+  slots_ = std::move(disks.index);
   gather_disks(all, slots_, state_.disks);
 }
 
 void HaloPart::build(const WindowPlan& plan, const BoxCut& cut, State& all, const LargestRadius& radii,
                      std::size_t first, std::vector<std::uint32_t>& slots) {
-  const double low = cut.along_x ? 0.0 : cut.low(number_) - cut.halo;
-  const double high = cut.along_x ? 0.0 : cut.high(number_) + cut.halo;
+  const auto along = [&](const AxisCut& axis, std::size_t piece, double& low, double& high) {
+    if (axis.pieces() == 1) return;
+    low = axis.low(piece) - cut.halo;
+    high = axis.high(piece) + cut.halo;
+  };
+  Vec2 low, high;
+  along(cut.x, cut.column(number_), low.x, high.x);
+  along(cut.y, cut.row(number_), low.y, high.y);
   ListLayout layout = layout_of_part(state_.disks.size(), slots.size(), low, high);
   layout.largest_of_box = radii.now;
   layout.growth = radii.growth;
@@ -66,60 +64,45 @@ void HaloPart::build(const WindowPlan& plan, const BoxCut& cut, State& all, cons
     take(slots_, order, sorted);
     slots_.swap(sorted);
   });
+  run_.set_part(cut.ends_of(number_), own_, radii.now + radii.growth, all, slots_);
   find_own(cut, first, slots);
-  set_ends(cut, all, radii);
 }
 
 void HaloPart::find_own(const BoxCut& cut, std::size_t first, std::vector<std::uint32_t>& slots) {
-  const std::vector<double>& c = cut.coordinates(state_.disks);
+  const Disks& d = state_.disks;
   own_.clear();
   own_.reserve(own_count_ + own_count_ / spare_share);
   ghosts_.clear();
   inside_.clear();
-  offers_below_.clear();
-  offers_above_.clear();
+  offers_.clear();
+  std::vector<OtherParts>& others = run_.window().others;
+  others.assign(d.size(), {});
   for (std::uint32_t i = 0; i < slots_.size(); ++i) {
-    if (cut.owns(number_, c[i])) {
+    const Vec2 at{d.x[i], d.y[i]};
+    if (cut.part_at(at) == number_) {
       slots[slots_[i]] = static_cast<std::uint32_t>(first + own_.size());
       own_.push_back(i);
+      others[i].known_to = known_to_at(cut, at);
     } else {
       ghosts_.push_back({i, 0, 0, 0});
     }
   }
+  make_room(others);
 }
 
-void HaloPart::set_ends(const BoxCut& cut, State& all, const LargestRadius& radii) {
-  PartEnds ends;
-  ends.along_x = cut.along_x;
-  ends.between.centre = 0.5 * (cut.low(number_) + cut.high(number_));
-  ends.between.period = cut.periodic ? cut.side : HUGE_VAL;
-  const double half = 0.5 * (cut.high(number_) - cut.low(number_));
-  if (cut.has_below(number_)) ends.between.below = -half;
-  if (cut.has_above(number_)) ends.between.above = half;
-  // Where a third part begins.
-  const auto width = [&](std::size_t part) { return cut.high(part) - cut.low(part); };
-  const bool three_below = cut.has_below(number_) && cut.has_below(below_) && cut.part_below(below_) != number_;
-  const bool three_above = cut.has_above(number_) && cut.has_above(above_) && cut.part_above(above_) != number_;
-  if (three_below) ends.next_below = -half - width(below_);
-  if (three_above) ends.next_above = half + width(above_);
-  run_.set_part(ends, own_count_, radii.now + radii.growth, all, slots_, [this, cut](std::uint32_t i) {
-    const PathSegment& path = record(i).path;
-    const double at = cut.along_x ? path.x : path.y;
-    DiskProgress progress;
-    const bool below = cut.is_known_below(number_, at);
-    const bool above = cut.is_known_above(number_, at);
-    if (!cut.owns(number_, at)) progress.set(DiskProgress::ghost);
-    if (below || (above && is_one_of_two())) progress.set(DiskProgress::known_below);
-    if (above || (below && is_one_of_two())) progress.set(DiskProgress::known_above);
-    return progress;
-  });
+std::uint8_t HaloPart::known_to_at(const BoxCut& cut, Vec2 at) const {
+  unsigned bits = 0;
+  cut.visit_parts_at(at, [&](std::size_t part) { bits |= neighbours().bit_of(part); });
+  return static_cast<std::uint8_t>(bits);
 }
 
 void HaloPart::find_owners(const std::vector<std::size_t>& firsts, const std::vector<std::uint32_t>& slots) {
   for (std::uint32_t& slot : slots_) slot = slots[slot];
   for (Ghost& ghost : ghosts_) {
     const std::uint32_t slot = slots_[ghost.index];
-    while (slot >= firsts[ghost.part + 1U]) ++ghost.part;
+    std::size_t k = 0;
+    while (slot < firsts[neighbours().part(k)] || slot >= firsts[neighbours().part(k) + 1U]) ++k;
+    ghost.part = neighbours().part(k);
     ghost.place = slot - static_cast<std::uint32_t>(firsts[ghost.part]);
   }
 }
@@ -154,12 +137,8 @@ void HaloPart::see_radius(double radius) {
 // here.
 bool HaloPart::has_all_near_own(const Disks& all) const {
   const double room = 0.5 * (halo_ - 2.0 * run_.largest_radius());
-  const std::vector<double>& c = ends().along_x ? all.x : all.y;
-  const KnownBand& between = ends().between;
   return std::all_of(own_.begin(), own_.end(), [&](std::uint32_t i) {
-    if (i == none) return true;
-    const double d = between.from_centre(c[slots_[i]]);
-    return std::max(d - between.above, between.below - d) < room;
+    return i == none || std::max(ends().x.beyond(all.x[slots_[i]]), ends().y.beyond(all.y[slots_[i]])) < room;
   });
 }
 

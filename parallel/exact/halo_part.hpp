@@ -13,6 +13,7 @@
 #include "core/scene/scene.hpp"
 #include "core/step/window_plan.hpp"
 #include "parallel/exact/box_cut.hpp"
+#include "parallel/exact/disks_of_parts.hpp"
 #include "parallel/exact/halo_tuning.hpp"
 #include "parallel/exact/window_run.hpp"
 #include "parallel/threads/executor.hpp"
@@ -38,8 +39,11 @@ class HaloPart {
   HaloPart(const HaloPart&) = delete;
   HaloPart& operator=(const HaloPart&) = delete;
 
+  // Of many disks, gives back what its last windows took: nothing of them is needed to build it, and building takes as
+  // much.
+  void release_windows(const Disks& all);
   // Takes its disks from all of them: those of this part of the cut, and of its halo.
-  void take_disks(const Disks& all, const BoxCut& cut, std::size_t part);
+  void take_disks(const Disks& all, const BoxCut& cut, std::size_t part, DisksOfPart&& disks);
   // Then sorts and lists them. all, radii: of all disks. first: how many own disks the parts before this one have. For
   // each own disk, of index k in `all`, sets slots[k] to first + its place among the own ones.
   void build(const WindowPlan& plan, const BoxCut& cut, State& all, const LargestRadius& radii, std::size_t first,
@@ -62,13 +66,13 @@ class HaloPart {
   bool agrees() const { return agrees_; }
   const HaloUse& use() const { return use_; }
 
-  // After a window: which of its own disks have come so near to an end that the part there is to have them, too. all:
-  // the columns.
+  // After a window: which of its own disks have come so near to an end that parts there are to have them, too. all: the
+  // columns.
   void find_offers(const Disks& all);
   // Then, when all have: takes what others offer as ghosts. all: the columns.
   void take_offers(const Disks& all, const HaloParts& parts);
   // Then, when all have taken theirs.
-  void clear_offers() { offers_below_.clear(), offers_above_.clear(); }
+  void clear_offers() { offers_.clear(); }
   // Then, one part after the other: makes the ghosts that came inside disks of its own.
   void take_over(const HaloParts& parts);
 
@@ -102,42 +106,43 @@ class HaloPart {
     std::uint16_t more_paths;  // segments begun here in the window than there, modulo 2^16, since its path was replaced
   };
 
-  // An own disk that another part is to have as a ghost.
+  // An own disk that another part, `to`, is to have as a ghost.
   struct Offer {
     std::uint32_t place;
     std::uint32_t slot;
+    std::uint16_t to;
   };
 
   template <class T>
   void give(const std::vector<T>& column, std::vector<T>& all) const;
   void find_own(const BoxCut& cut, std::size_t first, std::vector<std::uint32_t>& slots);
-  void set_ends(const BoxCut& cut, State& all, const LargestRadius& radii);
+  std::uint8_t known_to_at(const BoxCut& cut, Vec2 at) const;
   void see_radius(double radius);
   bool goes_as_there(const Ghost& ghost, const HaloPart& owner) const;
   void replace_path(Ghost& ghost, const HaloPart& owner);
   double beyond_end(const PathSegment& path) const;
-  void offer(std::uint32_t place, double from_centre);
+  void offer(std::uint32_t place, Vec2 at);
   void add_ghost(const Disks& all, std::uint16_t owner, const Offer& offer);
   void own_ghost(std::size_t ghost, const HaloParts& parts);
+  void change_owner(std::uint16_t from, std::uint32_t place, std::uint16_t to, std::uint32_t new_place);
   DiskRecord& record(std::uint32_t i) { return run_.window().record[i]; }
   const PartEnds& ends() const { return run_.window().part; }
-  // Of two parts along a period each is below and above the other.
-  bool is_one_of_two() const { return below_ == above_; }
+  const PartNeighbours& neighbours() const { return ends().neighbours; }
+  OtherParts& others(std::uint32_t i) { return run_.window().others[i]; }
 
   State state_;
   PhaseTimes times_;
   Executor one_thread_;
   WindowRun run_;
   std::uint16_t number_ = 0;
-  std::uint16_t below_ = 0, above_ = 0;  // parts; this one where there is none
-  double halo_ = 0.0;                    // how wide it is; length
+  double halo_ = 0.0;  // how wide it is; length
   std::size_t own_count_ = 0;
   std::vector<std::uint32_t> own_;    // indices of its own disks, by place
   std::vector<std::uint32_t> slots_;  // where each disk is in the columns of all; while the part is built, where it was
   std::vector<Ghost> ghosts_;
   std::vector<std::uint32_t> strays_;  // ghosts that moved otherwise than their owners say in the slice, by index
   std::vector<std::size_t> inside_;    // ghosts that are well inside after the slice, in ghosts_, in order
-  std::vector<Offer> offers_below_, offers_above_;
+  std::vector<Offer> offers_;
   bool agrees_ = true;
   HaloUse use_;
 };

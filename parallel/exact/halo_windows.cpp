@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/disks/disks.hpp"
 #include "core/step/step_start.hpp"
@@ -16,12 +17,17 @@ namespace {
 constexpr std::size_t least_disks = 4000;
 // A thread with more of them is faster with several parts of about so many, one after the other: what a slice reads of
 // a part comes from nearer caches, and from fewer pages.
-constexpr std::size_t most_disks = 1'000'000;
-constexpr std::size_t disks_of_several = 500'000;
-// The least width of a part, in halos; the second where there are more parts than threads, so that few disks are
-// ghosts.
+constexpr std::size_t most_disks = 400'000;
+constexpr std::size_t disks_of_several = 125'000;
+// The least width of a part, in halos.
 constexpr double least_width = 2.0;
-constexpr double ample_width = 40.0;
+// Where there are more parts than threads: the most disks that they have together, over those of the box. Of very many,
+// less, as ghosts take memory.
+constexpr double most_with_ghosts = 1.16;
+constexpr double most_with_ghosts_of_many = 1.05;
+constexpr std::size_t very_many = 50'000'000;
+// A part has at least the mean number of disks over this.
+constexpr std::size_t least_share = 8;
 // How often a window is run in parts, each time with halos made anew, before it is run without.
 constexpr int most_tries = 3;
 // How many windows are run without parts after one that could not be run in parts: more each time that happens soon
@@ -61,18 +67,33 @@ double HaloWindows::mean_spacing() const {
 
 // One part for each thread, or the same number for each. Where work is cut into smaller blocks there are several on one
 // thread, too.
-std::size_t HaloWindows::most_parts() const {
+PieceCounts HaloWindows::pieces(Cuts cuts) const {
   const auto threads = static_cast<std::size_t>(executor_.threads());
-  const bool is_cut = executor_.grain(least_disks) < least_disks;
-  const double side = std::max(scene_.box.width, scene_.box.height);
-  const double halos = side / (tuning_.spacings() * spacing_);
-  const auto fitting = [&](double width) { return static_cast<std::size_t>(halos / width); };
   const std::size_t n = state_.disks.size();
+  const double halo = tuning_.spacings() * spacing_;
+  const double most_share = n > very_many ? most_with_ghosts_of_many : most_with_ghosts;
   const bool is_much = executor_.blocks(n, most_disks) > threads;
-  const std::size_t each = is_much ? executor_.blocks(n, disks_of_several) / threads : 1;
-  const std::size_t ample = fitting(work_is_cut() ? least_width : ample_width) / threads;
-  const std::size_t wanted = threads * std::max<std::size_t>(std::min(each, ample), 1);
-  return std::min(std::max<std::size_t>(wanted, is_cut ? 2 : 1), fitting(least_width));
+  for (std::size_t each = is_much ? executor_.blocks(n, disks_of_several) / threads : 1; each > 1; --each) {
+    const PieceCounts pieces = pieces_of(threads * each, cuts);
+    const bool is_ample = work_is_cut() || share_with_ghosts(pieces, scene_.box, halo) < most_share;
+    if (pieces.parts() > 1 && is_ample) return pieces;
+  }
+  const bool is_cut = executor_.grain(least_disks) < least_disks;
+  for (std::size_t parts = std::max<std::size_t>(threads, is_cut ? 2 : 1); parts > 1; --parts) {
+    const PieceCounts pieces = pieces_of(parts, cuts);
+    if (pieces.parts() > 1) return pieces;
+  }
+  return {};
+}
+
+// A single part where there is no room for so many.
+PieceCounts HaloWindows::pieces_of(std::size_t parts, Cuts cuts) const {
+  const double halo = tuning_.spacings() * spacing_;
+  const Domain& box = scene_.box;
+  if (cuts == Cuts::along_both_axes) return best_pieces(parts, box, halo, least_width);
+  const bool wide = box.width > box.height;
+  const bool fit = static_cast<double>(parts) * least_width * halo <= std::max(box.width, box.height);
+  return !fit ? PieceCounts{} : wide ? PieceCounts{parts, 1} : PieceCounts{1, parts};
 }
 
 // Not where disks come and go or cannot be listed with a skin, nor in a sheared box, whose images move.
@@ -84,7 +105,7 @@ bool HaloWindows::are_wanted() {
   if (known_ == Known::nothing) spacing_ = mean_spacing();
   const bool keeps_disks = scene_.sources.empty() && !has_sinks(scene_);
   return keeps_disks && !scene_.box.shear.acts() && can_list_in(scene_.box) &&
-         state_.disks.size() >= executor_.grain(least_disks) && most_parts() > 1;
+         state_.disks.size() >= executor_.grain(least_disks) && pieces(Cuts::along_both_axes).parts() > 1;
 }
 
 void HaloWindows::forget(Known left) {
@@ -110,20 +131,39 @@ void HaloWindows::build(const WindowPlan& plan) {
   for (std::size_t r = 0; r < parts_.size() && r < work_.work.size(); ++r) {
     work_.work[r] = work_.work[r] / static_cast<double>(std::max<std::size_t>(parts_[r]->own(), 1)) + 1.0;
   }
-  const BoxCut cut = cut_box(state_.disks, scene_.box, most_parts(), tuning_.spacings() * spacing_, work_);
-  work_ = {cut, std::vector<double>(cut.parts(), 0.0)};
-  build_parts(plan, cut);
+  std::vector<DisksOfPart> disks = share_out();
+  build_parts(plan, work_.cut, std::move(disks));
   known_ = Known::lists;
 }
 
+// Where disks crowd, lines across the whole box may leave parts with hardly any: then there are strips.
+std::vector<DisksOfPart> HaloWindows::share_out() {
+  const std::size_t n = state_.disks.size();
+  const auto cut_into = [&](PieceCounts pieces) {
+    return cut_box(state_.disks, scene_.box, pieces, tuning_.spacings() * spacing_, work_);
+  };
+  BoxCut cut = cut_into(pieces(Cuts::along_both_axes));
+  std::vector<DisksOfPart> disks = disks_of_parts(state_.disks, cut, executor_);
+  const auto least = std::min_element(disks.begin(), disks.end(),
+                                      [](const DisksOfPart& a, const DisksOfPart& b) { return a.own < b.own; });
+  if (cut.x.pieces() > 1 && cut.y.pieces() > 1 && least->own * cut.parts() * least_share < n) {
+    cut = cut_into(pieces(Cuts::along_longer_side));
+    disks = disks_of_parts(state_.disks, cut, executor_);
+  }
+  work_ = {cut, std::vector<double>(cut.parts(), 0.0)};
+  return disks;
+}
+
 // Then the columns of all disks are in the order of the parts.
-void HaloWindows::build_parts(const WindowPlan& plan, const BoxCut& cut) {
+void HaloWindows::build_parts(const WindowPlan& plan, const BoxCut& cut, std::vector<DisksOfPart>&& disks) {
   parts_.resize(cut.parts());
   for (std::unique_ptr<HaloPart>& part : parts_) {
     if (!part) part = std::make_unique<HaloPart>(scene_);
   }
+  for_parts([&](HaloPart& part) { part.release_windows(state_.disks); });
   std::vector<std::uint32_t> slots(state_.disks.size());
-  executor_.run(parts_.size(), [&](std::size_t r) { parts_[r]->take_disks(state_.disks, cut, r); });
+  executor_.run(parts_.size(),
+                [&](std::size_t r) { parts_[r]->take_disks(state_.disks, cut, r, std::move(disks[r])); });
   std::vector<std::size_t> firsts{0};
   for (const std::unique_ptr<HaloPart>& part : parts_) firsts.push_back(firsts.back() + part->own());
   const LargestRadius radii{largest_radius(state_.disks), growth_};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
@@ -77,10 +78,13 @@ class HaloWindows {
  private:
   bool work_is_cut() const;
   double mean_spacing() const;
-  std::size_t most_parts() const;
+  enum class Cuts : std::uint8_t { along_both_axes, along_longer_side };
+  PieceCounts pieces(Cuts cuts) const;
+  PieceCounts pieces_of(std::size_t parts, Cuts cuts) const;
   bool lists_due(const WindowPlan& plan) const;
   void build(const WindowPlan& plan);
-  void build_parts(const WindowPlan& plan, const BoxCut& cut);
+  std::vector<DisksOfPart> share_out();
+  void build_parts(const WindowPlan& plan, const BoxCut& cut, std::vector<DisksOfPart>&& disks);
   void add_work();
   void exchange_disks();
   void begin(const WindowPlan& plan, const SpeedSummary& speeds, const WindowState& window);

@@ -76,7 +76,7 @@ void NeighbourLists::sort(Disks& d, const ListLayout& layout, double crowded, co
   }
   if (layout.disks_per_tile > 0) {
     make_tiled_grid(box_, largest, count, layout.disks_per_tile, layout.regions, grid_);
-    if (layout.disks_of_box > 0) keep_tiles_between(box_, layout.low, layout.high, grid_);
+    if (layout.disks_of_box > 0) keep_tiles_between(box_, layout.low.y, layout.high.y, grid_);
   } else {
     // Half of this many disks a cell, which has room for eight: lists extend over several cells, and each costs as much
     // to visit, empty or not. A few less in a dilute gas, whose disks lie less evenly, so that more cells overflow; a
@@ -87,7 +87,7 @@ void NeighbourLists::sort(Disks& d, const ListLayout& layout, double crowded, co
     const std::size_t twice_a_cell = (is_dilute ? 6U : 8U) + (are_many ? 2U : 0U);
     for (std::size_t& c : count) c = c / twice_a_cell + 1;
     make_grid(box_, largest, count, grid_, grid_margin, crowding_of_cells(crowded, disks));
-    if (layout.low < layout.high) store_rows_between(box_, layout.low, layout.high, grid_);
+    store_cells_between(box_, layout.low, layout.high, grid_);
   }
   if (is_sorted_by_place()) {
     sort_by_place(d, layout, crowded, executor);
@@ -103,7 +103,7 @@ void NeighbourLists::sort_by_place(Disks& d, const ListLayout& layout, double cr
   CellGrid places;
   make_grid(box_, smallest_radius(d), {disks / disks_of_a_place + 1}, places, grid_margin,
             crowding_of_cells(crowded, disks));
-  if (layout.low < layout.high) store_rows_between(box_, layout.low, layout.high, places);
+  store_cells_between(box_, layout.low, layout.high, places);
   sort_into_cells(d, places, executor, cells_);
 }
 

@@ -37,17 +37,16 @@ void NeighbourLists::prepare_query(const Disks& d) {
 
 void NeighbourLists::list_levels() {
   const bool tiled = grid_.tile_keys != 0;
-  const auto axis = [tiled](std::uint32_t reach, std::uint32_t cells, bool periodic, std::uint32_t first,
-                            std::uint32_t stored) {
-    return ListedAxis{cells, periodic ? 32U : 31U, takes_whole_side(reach, cells, periodic), first,
-                      tiled ? 0U : std::min(stored, cells)};
+  const auto axis = [tiled](std::uint32_t reach, std::uint32_t cells, bool periodic, StoredCells stored) {
+    return ListedAxis{cells, periodic ? 32U : 31U, takes_whole_side(reach, cells, periodic), stored.first,
+                      tiled ? 0U : std::min(stored.count, cells)};
   };
   listed_levels_.clear();
   for (const GridLevel& level : grid_.levels) {
     const ListReach most = reach_of(largest_radius_, level.largest_radius);
-    listed_levels_.push_back({axis(most.x, level.columns, box_.periodic_x(), 0, level.columns),
-                              axis(most.y, level.rows, box_.periodic_y(), level.first_stored, level.stored_rows),
-                              level.first_key, level.stride, level.largest_radius});
+    listed_levels_.push_back({axis(most.x, level.columns, box_.periodic_x(), level.stored_columns),
+                              axis(most.y, level.rows, box_.periodic_y(), level.stored_rows), level.first_key,
+                              level.stride, level.largest_radius});
   }
 }
 

@@ -241,11 +241,11 @@ class NeighbourLists {
       // Which cell a listed position at the edge of one is in, rounding decides.
       const double cutoff = (distance + flow_.stretch * level.largest_radius) * (1.0 + 1e-9) +
                             std::max(listed_box_.unit.x, listed_box_.unit.y);
-      const Span rows = stored_span(
-          level, span_around(position.y, cutoff, box_.height, level.rows_per_length, level.rows, box_.periodic_y()));
+      const Span rows =
+          span_around(position.y, cutoff, box_.height, level.rows_per_length, level.rows, box_.periodic_y());
       const Span columns =
           span_around(position.x, cutoff, box_.width, level.columns_per_length, level.columns, box_.periodic_x());
-      for_each_cell_block(level, rows, columns, [&](const CellBlock& block) {
+      for_each_stored_block(level, rows, columns, [&](const CellBlock& block) {
         inside = inside && block.first >= region.first_key && end_of(block) <= region.last_key;
         if (inside) for_each_row(block, run);
       });
@@ -327,9 +327,9 @@ class NeighbourLists {
   template <class Visit>
   [[gnu::noinline, gnu::hot]] void visit_cells_apart(const GridLevel& level, FixedPointPosition position,
                                                      ListReach reach, Visit&& visit) const {
-    const Span rows = stored_span(level, span_around_listed(position.y, reach.y, level.rows, box_.periodic_y()));
+    const Span rows = span_around_listed(position.y, reach.y, level.rows, box_.periodic_y());
     const Span columns = span_around_listed(position.x, reach.x, level.columns, box_.periodic_x());
-    for_each_cell_block(level, rows, columns, visit);
+    for_each_stored_block(level, rows, columns, visit);
   }
   ListQuery query_at(const Disks& disks, std::uint32_t i, FixedPointPosition position) const;
   float radius_in_units(double radius) const;
@@ -348,11 +348,12 @@ class NeighbourLists {
   std::uint32_t cell_in(std::size_t k, FixedPointPosition at) const {
     const ListedLevel& listed = listed_levels_[k];
     const std::int64_t row = listed.rows.place_of(at.y);
-    if (row < listed.rows.stored) [[likely]]
-      return listed.cell(row, listed.columns.place_of(at.x));
+    const std::int64_t column = listed.columns.place_of(at.x);
+    if (row < listed.rows.stored && column < listed.columns.stored) [[likely]]
+      return listed.cell(row, column);
     const GridLevel& level = grid_.levels[k];
-    return level.key_at(level.place_of_row(cell_of_listed(at.y, level.rows, box_.periodic_y())),
-                        cell_of_listed(at.x, level.columns, box_.periodic_x()));
+    return level.stored_key(cell_of_listed(at.y, level.rows, box_.periodic_y()),
+                            cell_of_listed(at.x, level.columns, box_.periodic_x()));
   }
   void fill_slots(const Disks& disks, std::uint32_t first_key, std::uint32_t last_key);
   void fill_slot(const Disks& disks, std::uint32_t i);

@@ -1,7 +1,10 @@
-// Where a part of the box ends (HaloPart).
+// Where a part of the box ends, and which parts are round it (HaloPart).
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 
 #include "core/base/types.hpp"
 #include "parallel/exact/disk_record.hpp"
@@ -9,31 +12,102 @@
 
 namespace carom {
 
-// A part lies between two coordinates, x or y. Its own disks are those that lie there when the lists are built,
-// wherever they go until the next time.
-struct PartEnds {
-  bool along_x = false;  // x tells, not y
+// The parts next to a part and at its corners, each once: of two parts along a period, each is on both sides of the
+// other.
+class PartNeighbours {
+ public:
+  std::size_t count() const { return count_; }
+  std::uint16_t part(std::size_t k) const { return part_[k]; }
+  // A bit for each of them: of the one that lies so many pieces further along x and y, -1 to 1, 0 if there is none; and
+  // of the one with this number, 0 if it is not next to the part.
+  std::uint8_t bit_towards(int along_x, int along_y) const {
+    return towards_[static_cast<std::size_t>(3 * along_y + along_x + 4)];
+  }
+  std::uint8_t bit_of(std::size_t part) const {
+    for (std::size_t k = 0; k < count_; ++k) {
+      if (part_[k] == part) return static_cast<std::uint8_t>(1U << k);
+    }
+    return 0;
+  }
+
+  void add(int along_x, int along_y, std::size_t part) {
+    if (bit_of(part) == 0) part_[count_++] = static_cast<std::uint16_t>(part);
+    towards_[static_cast<std::size_t>(3 * along_y + along_x + 4)] = bit_of(part);
+  }
+
+ private:
+  std::array<std::uint16_t, 8> part_{};
+  std::size_t count_ = 0;
+  std::array<std::uint8_t, 9> towards_{};
+};
+
+// Which other parts an own disk has to do with, as PartNeighbours' bits.
+struct OtherParts {
+  std::uint8_t known_to = 0;   // those that have it as a ghost
+  std::uint8_t may_reach = 0;  // those that it may have come to since the lists were built
+};
+
+// Which of the pieces along an axis: the one below the part's, its own, the one above.
+struct PieceSteps {
+  bool below, own, above;
+};
+
+// A part's ends along one axis; lengths. `between` has bounds where another piece follows.
+struct AxisEnds {
   KnownBand between;
-  // As in `between`: where the parts next to this one end, and third parts begin.
+  // As in `between`: where the pieces next to this one end, and third ones begin.
   double next_below = -HUGE_VAL, next_above = HUGE_VAL;
 
-  double coordinate(Vec2 at) const { return along_x ? at.x : at.y; }
+  // How far beyond the ends a coordinate is; negative between them.
+  double beyond(double c) const {
+    const double d = between.from_centre(c);
+    return std::fmax(d - between.above, between.below - d);
+  }
+};
 
-  // The disk has been listed at this place and stays within `distance` of it. Marks it as one that crosses where it may
-  // come beyond an end. False if the part there does not have it as a ghost, or if it may come to a third part: then
-  // the window would be void.
-  bool note_listing(Vec2 at, double distance, DiskRecord& disk) const {
+// A part lies between two coordinates along either axis. Its own disks are those that lie there when the lists are
+// built, wherever they go until the next time.
+struct PartEnds {
+  AxisEnds x, y;
+  PartNeighbours neighbours;
+
+  // The bits of the parts that these steps lead to.
+  std::uint8_t bits_of(PieceSteps along_x, PieceSteps along_y) const {
+    unsigned bits = 0;
+    const auto add_row = [&](bool taken, int row) {
+      if (!taken) return;
+      if (along_x.below) bits |= neighbours.bit_towards(-1, row);
+      if (along_x.own) bits |= neighbours.bit_towards(0, row);
+      if (along_x.above) bits |= neighbours.bit_towards(1, row);
+    };
+    add_row(along_y.below, -1);
+    add_row(along_y.own, 0);
+    add_row(along_y.above, 1);
+    return static_cast<std::uint8_t>(bits);
+  }
+
+  // The disk has been listed at this place and stays within `distance` of it: notes the parts that it may reach. False
+  // if one of them does not have it as a ghost, or if it may come to a third part: then the window would be void.
+  bool note_listing(Vec2 at, double distance, const DiskRecord& disk, OtherParts& others) const {
     if (disk.progress.has(DiskProgress::ghost)) return true;
     const double reach = (distance + disk.radius) * (1.0 + 1e-9);
-    const double d = between.from_centre(coordinate(at));
-    const bool below = d - reach < between.below;
-    const bool above = d + reach > between.above;
-    if (!below && !above) [[likely]]
+    const double dx = x.between.from_centre(at.x);
+    const double dy = y.between.from_centre(at.y);
+    if (is_inside(x, dx, reach) && is_inside(y, dy, reach)) [[likely]]
       return true;
-    disk.progress.set(DiskProgress::crosses);
-    if (d - reach < next_below || d + reach > next_above) return false;
-    return (!below || disk.progress.has(DiskProgress::known_below)) &&
-           (!above || disk.progress.has(DiskProgress::known_above));
+    others.may_reach |= bits_of(within(x, dx, reach), within(y, dy, reach));
+    if (dx - reach < x.next_below || dx + reach > x.next_above) return false;
+    if (dy - reach < y.next_below || dy + reach > y.next_above) return false;
+    return (others.may_reach & ~unsigned{others.known_to}) == 0;
+  }
+
+ private:
+  static bool is_inside(const AxisEnds& axis, double d, double reach) {
+    return d - reach >= axis.between.below && d + reach <= axis.between.above;
+  }
+  static PieceSteps within(const AxisEnds& axis, double d, double reach) {
+    const KnownBand& own = axis.between;
+    return {d - reach < own.below, d + reach >= own.below && d - reach <= own.above, d + reach > own.above};
   }
 };
 

@@ -160,7 +160,8 @@ void EventProcessor<scope>::look_beyond_border(std::uint32_t i, Vec2 at) {
 // ghost.
 template <Scope scope>
 void EventProcessor<scope>::note_listing(std::uint32_t i) {
-  if (!window_.part.note_listing(lists_.listed_position(i), lists_.skin() + window_.slack, record_[i])) [[unlikely]]
+  const double distance = lists_.skin() + window_.slack;
+  if (!window_.part.note_listing(lists_.listed_position(i), distance, record_[i], window_.others[i])) [[unlikely]]
     worker_.too_fast = worker_.ended = true;
 }
 

@@ -90,18 +90,16 @@ void WindowRun::build_lists(const WindowPlan& plan, const ListLayout& layout, co
   disks_when_built_ = state_.disks.size();
 }
 
-void WindowRun::set_part(const PartEnds& ends, std::size_t own, double largest_radius, State& all,
-                         const std::vector<std::uint32_t>& slots,
-                         const std::function<DiskProgress(std::uint32_t)>& mark) {
+void WindowRun::set_part(const PartEnds& ends, const std::vector<std::uint32_t>& own, double largest_radius, State& all,
+                         const std::vector<std::uint32_t>& slots) {
   all_ = &all;
   slots_ = &slots;
   window_.is_part = true;
   window_.part = ends;
   window_.part_is_known = true;
-  own_ = own;
+  own_disks_ = &own;
   least_largest_radius_ = largest_radius;
   largest_radius_ = std::max(largest_radius, largest_radius_);
-  mark_ = mark;
 }
 
 void WindowRun::append_last_disk(Vec2 at) {
@@ -128,14 +126,20 @@ void WindowRun::remove_disk(std::size_t i, const Disks& disks) {
 }
 
 void WindowRun::note_listing(std::uint32_t i) {
-  if (!window_.part.note_listing(lists_.listed_position(i), lists_.skin() + window_.slack, window_.record[i]))
+  const double distance = lists_.skin() + window_.slack;
+  if (!window_.part.note_listing(lists_.listed_position(i), distance, window_.record[i], window_.others[i]))
     window_.part_is_known = false;
 }
 
 // Of a part whose lists have just been built.
 void WindowRun::mark_disks() {
-  for (std::uint32_t i = 0; i < window_.record.size(); ++i) {
-    window_.record[i].progress = mark_(i);
+  for (DiskRecord& record : window_.record) {
+    record.progress = DiskProgress();
+    record.progress.set(DiskProgress::ghost);
+  }
+  own_ = own_disks_->size();
+  for (const std::uint32_t i : *own_disks_) {
+    window_.record[i].progress = DiskProgress();
     note_listing(i);
   }
 }
@@ -173,7 +177,7 @@ void WindowRun::begin(const WindowPlan& plan, const SpeedSummary& speeds, std::s
   set_speed_bound(plan, margin);
   const PhaseTimer timer(times_, "events");
   scheduler_.begin_window(rebuilt_, per_disk_);
-  if (rebuilt_ && mark_) mark_disks();
+  if (rebuilt_ && window_.is_part) mark_disks();
   rebuilt_ = false;
 }
 

@@ -80,11 +80,11 @@ class WindowRun {
   // sorted: as in NeighbourLists::build.
   void build_lists(const WindowPlan& plan, const ListLayout& layout, const NeighbourLists::Sorted& sorted = {});
 
-  // The disks are those of a thread's part and of its halo; after build_lists. own: how many are its own.
-  // largest_radius: of all disks of the box. all: the state of all, from which paths are loaded, and to which those of
-  // own disks are stored; disk i is at slots[i] of its columns. Both outlive it. mark(i): what is marked of disk i.
-  void set_part(const PartEnds& ends, std::size_t own, double largest_radius, State& all,
-                const std::vector<std::uint32_t>& slots, const std::function<DiskProgress(std::uint32_t)>& mark);
+  // The disks are those of a thread's part and of its halo; after build_lists. own: the indices of its own, all of them
+  // at the start of the next window. largest_radius: of all disks of the box. all: the state of all, from which paths
+  // are loaded, and to which those of own disks are stored; disk i is at slots[i] of its columns. All outlive it.
+  void set_part(const PartEnds& ends, const std::vector<std::uint32_t>& own, double largest_radius, State& all,
+                const std::vector<std::uint32_t>& slots);
   void set_own(std::size_t own) { own_ = own; }
   // Of a part, between windows: its last disk is new in the state and the slots; at: where it is.
   void append_last_disk(Vec2 at);
@@ -160,13 +160,13 @@ class WindowRun {
   bool rebuilt_ = false;  // the lists, for the coming window
   // Then, if times stayed: up to which time of the run no other event of a disk comes before the one that is known.
   double known_until_ = never;
-  double length_ = 0.0;    // of the last window
-  double meant_ = 0.0;     // likewise; WindowState::meant
-  int short_windows_ = 0;  // since all disks were predicted anew
-  double longest_ = 0.0;   // window meant since then; time
-  double per_disk_ = 0.0;  // events a disk and time, of the last slice
-  std::size_t own_ = 0;    // of a part: disks that are not of its halo
-  std::function<DiskProgress(std::uint32_t)> mark_;
+  double length_ = 0.0;                                    // of the last window
+  double meant_ = 0.0;                                     // likewise; WindowState::meant
+  int short_windows_ = 0;                                  // since all disks were predicted anew
+  double longest_ = 0.0;                                   // window meant since then; time
+  double per_disk_ = 0.0;                                  // events a disk and time, of the last slice
+  const std::vector<std::uint32_t>* own_disks_ = nullptr;  // of a part, when its lists have been built
+  std::size_t own_ = 0;                                    // of a part: disks that are not of its halo
   Known known_at_end_ = Known::nothing;
   std::size_t disks_when_built_ = 0;
 };

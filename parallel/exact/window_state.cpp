@@ -87,6 +87,7 @@ void WindowState::remove_disk(std::size_t i) {
 void WindowState::release_memory() {
   std::vector<DiskRecord>().swap(record);
   std::vector<CalendarEntry>().swap(entry);
+  std::vector<OtherParts>().swap(others);
 }
 
 }  // namespace carom

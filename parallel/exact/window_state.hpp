@@ -88,11 +88,12 @@ struct WindowState {
   double speed_limit2 = 0.0;
   double speed_bound = 0.0;
   double slice_start = 0.0;
-  double slice_end = 0.0;     // events before this time; in the last slice up to and including `length`
-  KnownBand band;             // no disk that is not here comes into it in the window
-  bool is_part = false;       // of the box, with a halo
-  PartEnds part;              // then: where it ends
-  bool part_is_known = true;  // each of its own disks that may come beyond an end is a ghost of the part there
+  double slice_end = 0.0;          // events before this time; in the last slice up to and including `length`
+  KnownBand band;                  // no disk that is not here comes into it in the window
+  bool is_part = false;            // of the box, with a halo
+  PartEnds part;                   // then: where it ends
+  std::vector<OtherParts> others;  // then, of each own disk
+  bool part_is_known = true;       // each of its own disks that may come beyond an end is a ghost of the part there
   // The largest NeighbourLists::depth_beyond_border of a disk listed in this window; 0: none. Length. A maximum has no
   // order, so that threads may set it; and no bit depends on it, as a list that looks for images it does not need finds
   // the same contacts.

@@ -53,17 +53,17 @@ TEST(TilesKept, AreAllOrLeaveTwoGroupsOut) {
     const std::uint32_t group = 1U << grid.levels[0].group_shift;
     keep_tiles_between(box, 0.0, high, grid);
     const GridLevel& level = grid.levels[0];
-    if (level.stored_rows >= level.rows) continue;
-    EXPECT_LE(level.stored_rows + 2 * group, level.rows) << high;
-    const std::uint32_t first = level.first_stored, last = first + level.stored_rows - 1;
+    if (level.stored_rows.count >= level.rows) continue;
+    EXPECT_LE(level.stored_rows.count + 2 * group, level.rows) << high;
+    const std::uint32_t first = level.stored_rows.first, last = first + level.stored_rows.count - 1;
     for (std::uint32_t row = 0; row < level.rows; ++row) {
-      const std::uint32_t place = level.place_of_row(row);
+      const std::uint32_t place = level.stored_rows.place_of(row, level.rows);
       const std::uint32_t beyond = (row + level.rows - last) % level.rows;  // rows after the last
       const std::uint32_t before = (first + level.rows - row) % level.rows;
       if (row >= first && row <= last) {
         EXPECT_EQ(place, row - first);
       } else if (beyond < before) {
-        EXPECT_EQ(place, level.stored_rows - 1) << row << " of " << level.rows;
+        EXPECT_EQ(place, level.stored_rows.count - 1) << row << " of " << level.rows;
       } else if (before < beyond) {
         EXPECT_EQ(place, 0U) << row << " of " << level.rows;
       }

@@ -1,7 +1,13 @@
-// The box cut into parts: each disk is one part's own, and halos are as wide as they say.
+// The box cut into parts: about as many disks in each, halos as wide as they say, and which parts are round one.
 #include "parallel/exact/box_cut.hpp"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "parallel/exact/disks_of_parts.hpp"
 
 namespace carom {
 namespace {
@@ -25,58 +31,125 @@ Domain box_of(double width, double height, SideKind ends) {
   return box;
 }
 
-TEST(BoxCut, EachDiskIsOnePartsOwn) {
+std::vector<std::size_t> parts_at(const BoxCut& cut, Vec2 at) {
+  std::vector<std::size_t> parts;
+  cut.visit_parts_at(at, [&](std::size_t part) { parts.push_back(part); });
+  return parts;
+}
+
+TEST(BoxCut, PartsHaveAboutAsManyDisks) {
   const Disks d = spread(3001, 10.0, 40.0);
   for (const SideKind ends : {SideKind::periodic, SideKind::wall}) {
-    const BoxCut cut = cut_box(d, box_of(10.0, 40.0, ends), 4, 1.5);
+    const BoxCut cut = cut_box(d, box_of(10.0, 40.0, ends), {1, 4}, 1.5);
     ASSERT_EQ(cut.parts(), 4U);
-    EXPECT_FALSE(cut.along_x);
     std::vector<std::size_t> own(4, 0);
-    for (std::size_t k = 0; k < d.size(); ++k) {
-      int owners = 0;
-      for (std::size_t part = 0; part < 4; ++part) {
-        if (!cut.owns(part, d.y[k])) continue;
-        ++owners;
-        ++own[part];
-      }
-      EXPECT_EQ(owners, 1);
-    }
+    for (std::size_t k = 0; k < d.size(); ++k) ++own[cut.part_at({d.x[k], d.y[k]})];
     // Spread unevenly, but each has about as many.
     for (const std::size_t count : own) EXPECT_NEAR(static_cast<double>(count), 3001.0 / 4.0, 20.0);
   }
 }
 
+TEST(BoxCut, HasTheSameWorkOnBothSidesOfALine) {
+  const Disks d = spread(4000, 40.0, 10.0);
+  const BoxCut halves = cut_box(d, box_of(40.0, 10.0, SideKind::wall), {2, 1}, 1.0);
+  EXPECT_NEAR(halves.x.high(0), 20.0, 0.1);
+  // Three times as much in the right half: two thirds of its disks have as much as the others.
+  const BoxCut weighted = cut_box(d, box_of(40.0, 10.0, SideKind::wall), {2, 1}, 1.0, {halves, {1.0, 3.0}});
+  EXPECT_NEAR(weighted.x.high(0), 20.0 + 20.0 / 3.0, 0.2);
+}
+
 TEST(BoxCut, HalosLieBehindTheEnds) {
-  const Disks d = spread(3001, 40.0, 10.0);
-  const BoxCut cut = cut_box(d, box_of(40.0, 10.0, SideKind::periodic), 2, 3.0);
-  ASSERT_TRUE(cut.along_x);
-  const double line = cut.high(0);
-  EXPECT_TRUE(cut.in_halo(0, line + 2.9));
-  EXPECT_FALSE(cut.in_halo(0, line + 3.1));
-  EXPECT_TRUE(cut.in_halo(0, 37.1)) << "round the box";
-  EXPECT_FALSE(cut.in_halo(0, 36.9));
-  EXPECT_TRUE(cut.in_halo(1, 2.9));
-  EXPECT_TRUE(cut.is_known_above(0, line - 2.9));
-  EXPECT_FALSE(cut.is_known_above(0, line - 3.1));
-  EXPECT_TRUE(cut.is_known_below(0, 2.9));
-  EXPECT_FALSE(cut.is_known_below(0, line + 1.0)) << "not its own";
+  const BoxCut cut = cut_box(spread(3001, 40.0, 10.0), box_of(40.0, 10.0, SideKind::periodic), {2, 1}, 3.0);
+  const double line = cut.x.high(0);
+  EXPECT_EQ(parts_at(cut, {line + 2.9, 5.0}), (std::vector<std::size_t>{1, 0}));
+  EXPECT_EQ(parts_at(cut, {line + 3.1, 5.0}), (std::vector<std::size_t>{1}));
+  EXPECT_EQ(parts_at(cut, {37.1, 5.0}), (std::vector<std::size_t>{1, 0})) << "round the box";
+  EXPECT_EQ(parts_at(cut, {36.9, 5.0}), (std::vector<std::size_t>{1}));
+  EXPECT_EQ(parts_at(cut, {2.9, 5.0}), (std::vector<std::size_t>{0, 1}));
+  EXPECT_EQ(parts_at(cut, {line - 2.9, 5.0}), (std::vector<std::size_t>{0, 1}));
+  EXPECT_EQ(parts_at(cut, {line - 3.1, 5.0}), (std::vector<std::size_t>{0}));
+}
+
+TEST(BoxCut, AtACornerThreePartsHaveAGhost) {
+  const BoxCut cut = cut_box(spread(3001, 40.0, 40.0), box_of(40.0, 40.0, SideKind::periodic), {3, 3}, 3.0);
+  ASSERT_EQ(cut.parts(), 9U);
+  const double x = cut.x.high(0), y = cut.y.high(0);
+  EXPECT_EQ(parts_at(cut, {x - 1.0, y - 1.0}), (std::vector<std::size_t>{0, 1, 3, 4}));
+  const double middle = 0.5 * (cut.y.low(1) + cut.y.high(1));
+  EXPECT_EQ(parts_at(cut, {x - 1.0, middle}), (std::vector<std::size_t>{3, 4}));
+  EXPECT_EQ(parts_at(cut, {1.0, 1.0}), (std::vector<std::size_t>{0, 2, 6, 8})) << "round the box";
 }
 
 TEST(BoxCut, WallsHaveNoHalos) {
-  const Disks d = spread(1000, 10.0, 40.0);
-  const BoxCut cut = cut_box(d, box_of(10.0, 40.0, SideKind::wall), 2, 3.0);
-  EXPECT_FALSE(cut.in_halo(0, 39.0));
-  EXPECT_FALSE(cut.is_known_below(0, 1.0));
+  const BoxCut cut = cut_box(spread(1000, 10.0, 40.0), box_of(10.0, 40.0, SideKind::wall), {1, 2}, 3.0);
+  EXPECT_EQ(parts_at(cut, {5.0, 39.0}), (std::vector<std::size_t>{1}));
+  EXPECT_EQ(parts_at(cut, {5.0, 1.0}), (std::vector<std::size_t>{0}));
   // Rounding may lead a disk out.
-  EXPECT_TRUE(cut.owns(0, -1e-12));
-  EXPECT_TRUE(cut.owns(1, 40.0 + 1e-12));
+  EXPECT_EQ(cut.part_at({-1e-12, -1e-12}), 0U);
+  EXPECT_EQ(cut.part_at({10.0 + 1e-12, 40.0 + 1e-12}), 1U);
 }
 
-TEST(BoxCut, PartsAreNotNarrowerThanHalos) {
+TEST(BoxCut, PiecesAreNotNarrowerThanHalos) {
   const Disks d = spread(1000, 10.0, 40.0);
-  const BoxCut cut = cut_box(d, box_of(10.0, 40.0, SideKind::wall), 64, 6.0);
-  EXPECT_LE(cut.parts(), 6U);
-  for (std::size_t part = 0; part < cut.parts(); ++part) EXPECT_GE(cut.high(part) - cut.low(part), 6.0 - 1e-9);
+  const BoxCut cut = cut_box(d, box_of(10.0, 40.0, SideKind::wall), {64, 64}, 6.0);
+  EXPECT_EQ(cut.x.pieces(), 1U);
+  EXPECT_LE(cut.y.pieces(), 6U);
+  for (std::size_t k = 0; k < cut.y.pieces(); ++k) EXPECT_GE(cut.y.width(k), 6.0 - 1e-9);
+}
+
+std::vector<std::size_t> neighbours_of(const BoxCut& cut, std::size_t part) {
+  const PartNeighbours all = cut.ends_of(part).neighbours;
+  std::vector<std::size_t> numbers;
+  for (std::size_t k = 0; k < all.count(); ++k) numbers.push_back(all.part(k));
+  std::sort(numbers.begin(), numbers.end());
+  return numbers;
+}
+
+TEST(BoxCut, NeighboursAreThoseAtSidesAndCorners) {
+  const Disks d = spread(3001, 40.0, 40.0);
+  const BoxCut walls = cut_box(d, box_of(40.0, 40.0, SideKind::wall), {3, 3}, 3.0);
+  EXPECT_EQ(neighbours_of(walls, 0), (std::vector<std::size_t>{1, 3, 4}));
+  EXPECT_EQ(neighbours_of(walls, 4), (std::vector<std::size_t>{0, 1, 2, 3, 5, 6, 7, 8}));
+  const BoxCut ring = cut_box(d, box_of(40.0, 40.0, SideKind::periodic), {2, 3}, 3.0);
+  EXPECT_EQ(neighbours_of(ring, 0), (std::vector<std::size_t>{1, 2, 3, 4, 5})) << "each once";
+  const PartNeighbours of_first = ring.ends_of(0).neighbours;
+  EXPECT_EQ(of_first.bit_towards(1, 0), of_first.bit_towards(-1, 0));
+  EXPECT_EQ(of_first.bit_towards(0, -1), of_first.bit_of(4));
+  EXPECT_EQ(of_first.bit_of(0), 0U);
+}
+
+TEST(BestPieces, HaveTheFewestGhosts) {
+  const Domain square = box_of(1000.0, 1000.0, SideKind::periodic);
+  const auto pieces = [](std::size_t parts, const Domain& box) {
+    const PieceCounts best = best_pieces(parts, box, 8.0, 2.0);
+    return std::pair(best.x, best.y);
+  };
+  EXPECT_EQ(pieces(2, square), std::pair(std::size_t{1}, std::size_t{2}));
+  EXPECT_EQ(pieces(16, square), std::pair(std::size_t{4}, std::size_t{4}));
+  EXPECT_EQ(pieces(16, box_of(4000.0, 100.0, SideKind::wall)), std::pair(std::size_t{16}, std::size_t{1}));
+  EXPECT_EQ(pieces(13, box_of(200.0, 100.0, SideKind::wall)), std::pair(std::size_t{1}, std::size_t{1})) << "no room";
+  EXPECT_NEAR(share_with_ghosts({4, 4}, square, 8.0), (1.0 + 64.0 / 1000.0) * (1.0 + 64.0 / 1000.0), 1e-12);
+  EXPECT_EQ(share_with_ghosts({1, 1}, square, 8.0), 1.0);
+}
+
+// As visit_parts_at says, one disk after the other.
+TEST(DisksOfParts, AreThoseOwnedAndThoseOfHalos) {
+  const Disks d = spread(5003, 40.0, 40.0);
+  const BoxCut cut = cut_box(d, box_of(40.0, 40.0, SideKind::periodic), {3, 2}, 3.0);
+  std::vector<DisksOfPart> expected(cut.parts());
+  for (std::uint32_t k = 0; k < d.size(); ++k) {
+    const Vec2 at{d.x[k], d.y[k]};
+    ++expected[cut.part_at(at)].own;
+    for (const std::size_t part : parts_at(cut, at)) expected[part].index.push_back(k);
+  }
+  for (const int threads : {1, 3}) {
+    const std::vector<DisksOfPart> found = disks_of_parts(d, cut, Executor(threads, 512));
+    ASSERT_EQ(found.size(), 6U);
+    for (std::size_t part = 0; part < 6; ++part) {
+      EXPECT_EQ(found[part].index, expected[part].index);
+      EXPECT_EQ(found[part].own, expected[part].own);
+    }
+  }
 }
 
 }  // namespace

@@ -164,15 +164,28 @@ TEST(HaloWindows, AreVoidWhereHalosAreTooNarrow) {
   EXPECT_GT(all.void_runs, 3U);
 }
 
-// Work is cut so small that a part has 5 10^5 / 512 disks, if a thread has more than twice as many.
-// Halos of work cut so small are so narrow that most windows are void; those that are done have the right bits.
+// Work is cut so small that a part has 125000 / 256 disks, if a thread has more than three times as many. Halos are
+// then so narrow that most windows are void; those that are done have the right bits.
 TEST(LongHaloWindows, SeveralOnEachThread) {
   const Scene scene = make_scene({100, 100, "periodic", "", random_disks(5000, equal_disks), 1000, ""});
-  for (const auto& [threads, parts] : {std::pair{1, 6U}, std::pair{2, 6U}, std::pair{3, 3U}}) {
+  for (const auto& [threads, parts] : {std::pair{1, 10U}, std::pair{2, 10U}, std::pair{3, 9U}}) {
     SCOPED_TRACE(threads);
-    const Tally tally = run_beside_one_queue(scene, threads, 512, 30);
+    const Tally tally = run_beside_one_queue(scene, threads, 256, 30);
     EXPECT_EQ(tally.parts, parts);
     EXPECT_GT(tally.done, 3);
+  }
+}
+
+// Two by three, two by four, three by three: a disk at a corner is a ghost of three parts, or of one, of two along a
+// period.
+TEST(LongHaloWindows, InRowsAndColumns) {
+  const Scene scene = make_scene({180, 180, "periodic", "", random_disks(16000, equal_disks), 1000, ""});
+  for (const int threads : {6, 8, 9}) {
+    SCOPED_TRACE(threads);
+    const Tally tally = run_beside_one_queue(scene, threads, 8, 60);
+    EXPECT_EQ(tally.parts, static_cast<std::size_t>(threads));
+    EXPECT_GE(tally.done, 59);
+    EXPECT_LE(tally.void_runs, 4U);
   }
 }
 
@@ -190,9 +203,11 @@ TEST(LongHaloWindows, OfOtherScenes) {
        1000, ""},
       {300, 300, "periodic", "", random_disks(3000, equal_disks), 1000, ""}};
   for (std::size_t k = 0; k < scenes.size(); ++k) {
-    SCOPED_TRACE(k);
-    const Tally tally = run_beside_one_queue(make_scene(scenes[k]), 2, 1, 30);
-    EXPECT_GE(tally.done, 25);
+    for (const int threads : {2, 6, 9}) {
+      SCOPED_TRACE(fmt::format("scene {}, {} threads", k, threads));
+      const Tally tally = run_beside_one_queue(make_scene(scenes[k]), threads, 1, 30);
+      EXPECT_GE(tally.done, 25);
+    }
   }
 }
 

@@ -1,0 +1,45 @@
+#include "parallel/exact/disks_of_parts.hpp"
+
+#include <utility>
+
+namespace carom {
+
+namespace {
+
+constexpr std::size_t disks_a_block = 65536;
+
+}  // namespace
+
+// Each block of disks is counted by parts, and then written behind the blocks before it.
+std::vector<DisksOfPart> disks_of_parts(const Disks& disks, const BoxCut& cut, const Executor& executor) {
+  const std::size_t n = disks.size();
+  const std::size_t parts = cut.parts();
+  std::vector<std::vector<std::size_t>> count(executor.blocks(n, disks_a_block), std::vector<std::size_t>(parts));
+  std::vector<std::vector<std::size_t>> own = count;
+  const auto visit_disks = [&](std::size_t begin, std::size_t end, const auto& visit) {
+    for (std::size_t k = begin; k < end; ++k) {
+      cut.visit_parts_at({disks.x[k], disks.y[k]}, [&](std::size_t part) { visit(k, part); });
+    }
+  };
+  executor.for_ranges(n, disks_a_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) ++own[b][cut.part_at({disks.x[k], disks.y[k]})];
+    visit_disks(begin, end, [&](std::size_t, std::size_t part) { ++count[b][part]; });
+  });
+  std::vector<DisksOfPart> all(parts);
+  executor.run(parts, [&](std::size_t part) {
+    std::size_t sum = 0;
+    for (std::size_t b = 0; b < count.size(); ++b) {
+      all[part].own += own[b][part];
+      sum += std::exchange(count[b][part], sum);
+    }
+    all[part].index.resize(sum);
+  });
+  executor.for_ranges(n, disks_a_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
+    visit_disks(begin, end, [&](std::size_t k, std::size_t part) {
+      all[part].index[count[b][part]++] = static_cast<std::uint32_t>(k);
+    });
+  });
+  return all;
+}
+
+}  // namespace carom
