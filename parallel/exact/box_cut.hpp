@@ -71,7 +71,7 @@ struct BoxCut {
   // The part that owns what is at a place.
   std::size_t part_at(Vec2 at) const { return part_of(x.piece_at(at.x), y.piece_at(at.y)); }
 
-  // Calls visit(part) for the part that owns a place, and for each one that has it in its halo.
+  // Calls visit(part) for the part that owns a place, first, and for each one that has it in its halo.
   template <class Visit>
   void visit_parts_at(Vec2 at, Visit&& visit) const {
     const Pieces columns = pieces_at(x, at.x);
@@ -92,8 +92,11 @@ struct BoxCut {
   };
   // Pieces are as wide as a halo, so that no other one has it.
   Pieces pieces_at(const AxisCut& axis, double c) const {
-    Pieces found{{axis.piece_at(c)}, 1};
-    const std::size_t own = found.piece[0];
+    const std::size_t own = axis.piece_at(c);
+    Pieces found{{own}, 1};
+    const double well_inside = halo * (1.0 + 1e-6);
+    if (c - axis.low(own) > well_inside && axis.high(own) - c > well_inside) [[likely]]
+      return found;
     const std::size_t below = axis.below(own);
     const std::size_t above = axis.above(own);
     if (below != own && axis.in_halo(below, c, halo)) found.piece[found.count++] = below;

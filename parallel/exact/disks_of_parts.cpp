@@ -16,14 +16,14 @@ std::vector<DisksOfPart> disks_of_parts(const Disks& disks, const BoxCut& cut, c
   const std::size_t parts = cut.parts();
   std::vector<std::vector<std::size_t>> count(executor.blocks(n, disks_a_block), std::vector<std::size_t>(parts));
   std::vector<std::vector<std::size_t>> own = count;
-  const auto visit_disks = [&](std::size_t begin, std::size_t end, const auto& visit) {
-    for (std::size_t k = begin; k < end; ++k) {
-      cut.visit_parts_at({disks.x[k], disks.y[k]}, [&](std::size_t part) { visit(k, part); });
-    }
-  };
   executor.for_ranges(n, disks_a_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) ++own[b][cut.part_at({disks.x[k], disks.y[k]})];
-    visit_disks(begin, end, [&](std::size_t, std::size_t part) { ++count[b][part]; });
+    for (std::size_t k = begin; k < end; ++k) {
+      bool is_owner = true;
+      cut.visit_parts_at({disks.x[k], disks.y[k]}, [&](std::size_t part) {
+        own[b][part] += std::exchange(is_owner, false) ? 1U : 0U;
+        ++count[b][part];
+      });
+    }
   });
   std::vector<DisksOfPart> all(parts);
   executor.run(parts, [&](std::size_t part) {
@@ -35,9 +35,10 @@ std::vector<DisksOfPart> disks_of_parts(const Disks& disks, const BoxCut& cut, c
     all[part].index.resize(sum);
   });
   executor.for_ranges(n, disks_a_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
-    visit_disks(begin, end, [&](std::size_t k, std::size_t part) {
-      all[part].index[count[b][part]++] = static_cast<std::uint32_t>(k);
-    });
+    for (std::size_t k = begin; k < end; ++k) {
+      cut.visit_parts_at({disks.x[k], disks.y[k]},
+                         [&](std::size_t part) { all[part].index[count[b][part]++] = static_cast<std::uint32_t>(k); });
+    }
   });
   return all;
 }

@@ -313,6 +313,28 @@ TEST(HaloWindows, AreVoidWhereADiskComesToAThirdPart) {
   }
 }
 
+// From the end of an outer one of three parts, where the second has it as a ghost, through that one and so deep into
+// the third that the second has no disk there.
+TEST(HaloWindows, AreVoidWhereADiskFliesThroughAPartIntoAThird) {
+  for (const bool upright : {false, true}) {
+    const auto at = [upright](double along, double across) {
+      return upright ? fmt::format("[{}, {}]", across, along) : fmt::format("[{}, {}]", along, across);
+    };
+    const std::string region = upright ? "[2, 0, 35, 140]" : "[0, 2, 140, 35]";
+    const std::string disks = fmt::format(
+        "[[disks]]\ncount = 2\npositions = [{}, {}]\nvelocities = [{}, [0, 0]]\nradius = 0.2\nmass = 1\n"
+        "[[disks]]\ncount = 4900\npositions = \"square\"\nregion = {}\nradius = 0.2\nmass = 1\n",
+        at(98, 0.5), at(23.8, 0.5), at(-100, 0), region);
+    const Scene scene = make_scene({upright ? 35.0 : 140.0, upright ? 140.0 : 35.0, "wall", "", disks, 1.5, ""});
+    State initial = initial_state(scene);
+    initial.window = 1e9;
+    const Tally tally = run_beside_one_queue(scene, initial, 3, 1, 1);
+    EXPECT_EQ(tally.done, 0);
+    EXPECT_EQ(tally.parts, 3U);
+    EXPECT_EQ(tally.void_runs, 3U);
+  }
+}
+
 // As far inside of its part as halos are wide, to the last bit, where across the period rounding tells.
 TEST(HaloWindows, KnowADiskAtTheHalosEdgeOnBothSidesOfAPeriod) {
   const std::string sides = "left = \"periodic\"\nright = \"periodic\"";
@@ -350,10 +372,26 @@ TEST(LongHaloWindows, WithAProjectile) {
   const std::string projectile =
       "[[disks]]\ncount = 1\npositions = [[50, 50]]\nvelocities = [[7, 99]]\nradius = 0.5\nmass = 1\n";
   const Scene scene = make_scene({100, 100, "periodic", "", projectile + random_disks(4000, equal_disks), 1000, ""});
-  for (const std::size_t divisor : {std::size_t{1}, std::size_t{128}}) {
-    const Tally tally = run_beside_one_queue(scene, 3, divisor, 30);
-    EXPECT_GT(tally.done, 0);
+  for (const int threads : {3, 9}) {
+    for (const std::size_t divisor : {std::size_t{1}, std::size_t{128}}) {
+      const Tally tally = run_beside_one_queue(scene, threads, divisor, 30);
+      EXPECT_GT(tally.done, 0);
+    }
   }
+}
+
+// Of three by three parts, those in the other two corners would have no disk.
+TEST(HaloWindows, AreStripsWhereDisksCrowdInTwoCorners) {
+  const auto crowd = [](int low, int high) {
+    return fmt::format(
+        "[[disks]]\ncount = 2000\npositions = \"random\"\nregion = [{}, {}, {}, {}]\nvelocities = {{ maxwell = 1 }}\n"
+        "radius = 0.4\nmass = 1\n",
+        low, low, high, high);
+  };
+  const Scene scene = make_scene({200, 200, "wall", "", crowd(0, 60) + crowd(140, 200), 1000, ""});
+  const Tally tally = run_beside_one_queue(scene, 9, 1, 8);
+  EXPECT_EQ(tally.parts, 3U);
+  EXPECT_EQ(tally.done, 8);
 }
 
 // Ten times as large as the others, it comes to a part whose lists were built for small disks.
