@@ -31,13 +31,16 @@ std::string flying(double x, double velocity, double radius = 0.2) {
 // of this length without a collision.
 struct AfterOneWindow {
   AfterOneWindow(const std::string& disks, double length, double growth = 0.0)
-      : scene(make_scene({140, 35, "wall", "", disks, 100, ""})), state(initial_state(scene)) {
+      : AfterOneWindow(make_scene({140, 35, "wall", "", disks, 100, ""}), 3, length, growth) {}
+  // Of so many parts.
+  AfterOneWindow(Scene in_box, int threads, double length, double growth = 0.0)
+      : scene(std::move(in_box)), state(initial_state(scene)), executor(threads, 128) {
     state.window = length;
     windows.set_growth(growth);
     const SpeedSummary speeds = summarise_speeds(state.disks, scene.box, executor);
     const WindowPlan plan = plan_window(scene, state, state.disks.size(), speeds);
     EXPECT_EQ(windows.run(plan, speeds, WindowState{}), SliceOutcome::done);
-    EXPECT_EQ(windows.parts(), 3U);
+    EXPECT_EQ(windows.parts(), static_cast<std::size_t>(threads));
     finish_window(state, state.disks.size(), plan, windows.store_paths(plan));
     EXPECT_EQ(state.counters.collisions, 0U);
   }
@@ -54,7 +57,7 @@ struct AfterOneWindow {
 
   Scene scene;
   State state;
-  Executor executor{3, 128};
+  Executor executor;
   PhaseTimes times;
   HaloWindows windows{scene, state, executor, times};
 };
@@ -91,6 +94,32 @@ TEST(HaloLists, TellOfADiskThatHasJustCome) {
   for (int k = 0; k < 2; ++k) {
     EXPECT_TRUE(after.windows.complete_lists());
     EXPECT_EQ(after.times_listed(0, 1), 1);
+  }
+}
+
+// Two by two parts that meet at (30, 30), with halos of 12, in each of whose outer corners is a lattice. From beyond
+// the halo a disk flies towards one that rests just behind that point, and is a ghost there then, once.
+TEST(HaloLists, TellOfADiskThatHasJustComeAcrossACorner) {
+  const auto lattice = [](int x, int y) {
+    return fmt::format(
+        "[[disks]]\ncount = 100\npositions = \"square\"\nregion = [{}, {}, {}, {}]\nradius = 0.2\nmass = 1\n", x, y,
+        x + 16, y + 16);
+  };
+  const std::string others = lattice(0, 0) + lattice(44, 0) + lattice(0, 44) + lattice(44, 44) +
+                             "[[disks]]\ncount = 4\npositions = [[30, 5], [30, 55], [5, 30], [55, 30]]\nradius = 0.2\n"
+                             "mass = 1\n";
+  for (const int x : {-1, 1}) {
+    for (const int y : {-1, 1}) {
+      const auto at = [&](double d) { return fmt::format("[{}, {}]", 30.0 + x * d, 30.0 + y * d); };
+      const std::string two = fmt::format(
+          "[[disks]]\ncount = 2\npositions = [{}, {}]\nvelocities = [[0, 0], [{}, {}]]\nradius = 0.2\n"
+          "mass = 1\n",
+          at(-0.1), at(13.2), -x, -y);
+      AfterOneWindow after(make_scene({60, 60, "wall", "", two + others, 100, ""}), 4, 11.2);
+      EXPECT_EQ(after.times_listed(0, 1), 0);
+      EXPECT_TRUE(after.windows.complete_lists());
+      EXPECT_EQ(after.times_listed(0, 1), 1) << x << " " << y;
+    }
   }
 }
 

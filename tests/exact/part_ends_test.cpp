@@ -1,0 +1,138 @@
+// Which parts a disk may come to before it is listed again: each one whose rectangle is within reach, round the box.
+#include "parallel/exact/part_ends.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "parallel/exact/box_cut.hpp"
+
+namespace carom {
+namespace {
+
+constexpr double side = 60.0;
+
+AxisCut axis_of(std::size_t pieces, bool periodic) {
+  AxisCut axis{periodic, side, {}};
+  for (std::size_t k = 0; k <= pieces; ++k) {
+    axis.line.push_back(side * static_cast<double>(k) / static_cast<double>(pieces));
+  }
+  return axis;
+}
+
+BoxCut cut_of(std::size_t x, std::size_t y, bool periodic) {
+  return {axis_of(x, periodic), axis_of(y, periodic), 4.0};
+}
+
+// Is anything of the piece, or of an image of it, within reach of a coordinate?
+bool is_near(const AxisCut& axis, std::size_t piece, double c, double reach) {
+  for (const double turn : {-side, 0.0, side}) {
+    if (turn != 0.0 && !axis.periodic) continue;
+    if (c + turn + reach > axis.low(piece) && c + turn - reach < axis.high(piece)) return true;
+  }
+  return false;
+}
+
+std::uint8_t bits_within(const BoxCut& cut, std::size_t part, Vec2 at, double reach) {
+  unsigned bits = 0;
+  for (std::size_t other = 0; other < cut.parts(); ++other) {
+    if (other == part || !is_near(cut.x, cut.column(other), at.x, reach) ||
+        !is_near(cut.y, cut.row(other), at.y, reach)) {
+      continue;
+    }
+    bits |= cut.ends_of(part).neighbours.bit_of(other);
+  }
+  return static_cast<std::uint8_t>(bits);
+}
+
+struct Noted {
+  bool stays = false;
+  OtherParts others;
+};
+
+// Listed in the middle of its skin of 0.9; its radius is 0.3.
+Noted note(const BoxCut& cut, std::size_t part, Vec2 at, std::uint8_t known_to) {
+  DiskRecord disk;
+  disk.radius = 0.3;
+  Noted noted;
+  noted.others.known_to = known_to;
+  noted.stays = cut.ends_of(part).note_listing(at, 0.9, disk, noted.others);
+  return noted;
+}
+
+// At each place of a part, and somewhat beyond its ends.
+template <class Visit>
+void for_places(const BoxCut& cut, std::size_t part, const Visit& visit) {
+  const auto low = [](const AxisCut& axis, std::size_t piece) { return axis.low(piece) - 2.05; };
+  for (double x = low(cut.x, cut.column(part)); x < cut.x.high(cut.column(part)) + 2.0; x += 0.37) {
+    for (double y = low(cut.y, cut.row(part)); y < cut.y.high(cut.row(part)) + 2.0; y += 0.37) {
+      const bool is_in_box = x >= 0.0 && x < side && y >= 0.0 && y < side;
+      if (is_in_box) visit(Vec2{x, y});
+    }
+  }
+}
+
+TEST(PartEnds, NoteEachPartThatADiskMayReach) {
+  for (const bool periodic : {false, true}) {
+    for (const auto& [x, y] : {std::pair{3, 3}, std::pair{2, 3}, std::pair{3, 2}, std::pair{1, 4}, std::pair{4, 1}}) {
+      const BoxCut cut = cut_of(static_cast<std::size_t>(x), static_cast<std::size_t>(y), periodic);
+      for (std::size_t part = 0; part < cut.parts(); ++part) {
+        for_places(cut, part, [&](Vec2 at) {
+          const std::uint8_t expected = bits_within(cut, part, at, 1.2);
+          const Noted noted = note(cut, part, at, 0xff);
+          EXPECT_TRUE(noted.stays);
+          ASSERT_EQ(noted.others.may_reach, expected)
+              << x << " by " << y << ", part " << part << ", " << at.x << " " << at.y;
+        });
+      }
+    }
+  }
+}
+
+// The window is void where one of them has no such ghost.
+TEST(PartEnds, AskWhetherEachOfThemHasTheDisk) {
+  const BoxCut cut = cut_of(3, 3, true);
+  for_places(cut, 4, [&](Vec2 at) {
+    const unsigned near = bits_within(cut, 4, at, 1.2);
+    EXPECT_TRUE(note(cut, 4, at, static_cast<std::uint8_t>(near)).stays);
+    for (unsigned left = near; left != 0; left &= left - 1) {
+      const unsigned one = left & ~(left - 1);
+      EXPECT_FALSE(note(cut, 4, at, static_cast<std::uint8_t>(~one)).stays) << at.x << " " << at.y;
+    }
+  });
+}
+
+// Of five by five parts, the one in the middle knows nothing of those two pieces away.
+TEST(PartEnds, AreLeftForGoodWhereAThirdPartBegins) {
+  const BoxCut cut = cut_of(5, 5, true);
+  for (const double beyond : {18.0, 30.0, 42.0}) {
+    EXPECT_TRUE(note(cut, 12, {beyond, 30.0}, 0xff).stays);
+    EXPECT_TRUE(note(cut, 12, {30.0, beyond}, 0xff).stays);
+  }
+  for (const double beyond : {13.0, 47.0}) {
+    EXPECT_FALSE(note(cut, 12, {beyond, 30.0}, 0xff).stays);
+    EXPECT_FALSE(note(cut, 12, {30.0, beyond}, 0xff).stays);
+  }
+}
+
+// What a ghost's owner does not say of it does not matter.
+TEST(PartEnds, LeaveGhostsAlone) {
+  DiskRecord ghost;
+  ghost.progress.set(DiskProgress::ghost);
+  OtherParts others;
+  EXPECT_TRUE(cut_of(3, 3, true).ends_of(4).note_listing({1.0, 1.0}, 0.9, ghost, others));
+  EXPECT_EQ(others.may_reach, 0U);
+}
+
+TEST(PartEnds, TellHowFarBeyondThemAPlaceIs) {
+  const PartEnds ends = cut_of(3, 1, true).ends_of(0);  // from 0 to 20, round the box
+  EXPECT_DOUBLE_EQ(ends.x.beyond(23.0), 3.0);
+  EXPECT_DOUBLE_EQ(ends.x.beyond(57.0), 3.0);
+  EXPECT_DOUBLE_EQ(ends.x.beyond(15.0), -5.0);
+  EXPECT_EQ(ends.y.beyond(15.0), -HUGE_VAL);
+}
+
+}  // namespace
+}  // namespace carom
