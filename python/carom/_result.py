@@ -147,7 +147,6 @@ class Column(np.ndarray):
         return self.attributes.get("standard_error")
 
 
-
 def _attributes(item) -> dict:
     """Those of a data set and of its group. A group's mean is that of its value, and not of the intervals beside it; where it
     has several series, NAME_mean is the mean of its NAME."""
@@ -156,6 +155,11 @@ def _attributes(item) -> dict:
     own = {key: v for key, v in item.parent.attrs.items() if key not in of_value} | dict(item.attrs)
     own = {key: v.decode() if isinstance(v, bytes) else v for key, v in own.items()}
     return own | {key[len(name) + 1:]: v for key, v in own.items() if key.startswith(name + "_")}
+
+
+_kinds = {str: "a text", int: "a whole number", (int, float): "a number"}
+# What a Result shows of every summary, and what it is there.
+_always_there = {"state_hash": str, "particles": int, "time": (int, float), "collisions": int}
 
 
 class Result:
@@ -176,8 +180,9 @@ class Result:
         except (OSError, ValueError) as error:
             reason = error.strerror if isinstance(error, OSError) else "is no JSON"
             raise SceneError(f"{file}: {reason}; expected the folder of a run that is done") from None
-        if not isinstance(summary, dict) or "state_hash" not in summary:
-            raise SceneError(f"{file}: has no state_hash; expected the folder of a run that is done")
+        for key, kind in _always_there.items():
+            if not isinstance(summary, dict) or not isinstance(summary.get(key), kind):
+                raise SceneError(f"{file}: has no {key}, {_kinds[kind]}; expected the folder of a run that is done")
         return cls(summary, folder)
 
     @property

@@ -3,6 +3,7 @@
 import copy
 import html
 import inspect
+import json
 import os
 import pickle
 import typing
@@ -55,6 +56,12 @@ def test_a_result_is_opened_again(result, tmp_path):
         (tmp_path / "summary.json").write_text(text, encoding="latin-1")
         with pytest.raises(carom.SceneError, match="expected the folder of a run that is done"):
             carom.Result.load(tmp_path)
+    for key, wrong in (("state_hash", 7), ("particles", "ten"), ("time", None), ("collisions", 1.5)):
+        others = {name: value for name, value in result.summary.items() if name != key}
+        for summary in (others, others | {key: wrong}):
+            (tmp_path / "summary.json").write_text(json.dumps(summary))
+            with pytest.raises(carom.SceneError, match=f"summary.json: has no {key}, a .*; expected the folder of a run"):
+                carom.Result.load(tmp_path)
 
 
 def test_a_scene_starts_from_files_and_frames(result, tmp_path):
