@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string_view>
 
 #include "core/scene/drawn_velocities.hpp"
@@ -15,19 +14,12 @@ namespace carom {
 
 namespace {
 
-SizeRange mass_range(const SizeLaw& radius, const SizeLaw& mass) {
-  if (mass.kind != SizeLaw::Kind::from_other) return size_range(mass);
-  const SizeRange r = size_range(radius);
-  const double density = std::numbers::pi * mass.density;
-  return {density * r.low * r.low, density * r.high * r.high};
-}
-
 // May two disks that can meet have masses that differ by more than rounding?
 bool masses_differ(const Scene& scene) {
   SizeRange all{HUGE_VAL, 0.0};
   const auto see = [&](const SizeLaw& radius, const SizeLaw& mass) {
-    const SizeRange range = mass_range(radius, mass);
-    all = {std::min(all.low, range.low), std::max(all.high, range.high)};
+    const auto [smallest, largest] = ends_of_sizes(radius, mass);
+    all = {std::min(all.low, smallest.mass), std::max(all.high, largest.mass)};
   };
   for (const DiskGroup& group : scene.groups) {
     if (!group.fixed && group.count > 0) see(group.radius, group.mass);

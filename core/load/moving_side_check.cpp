@@ -113,7 +113,7 @@ void check_sweeps(const Scene& scene, const PlaceOfKey& place) {
   }
   for (std::size_t k = 0; k < scene.sources.size(); ++k) {
     const Source& source = scene.sources[k];
-    const double radius = source_sizes(source).second.radius;
+    const double radius = ends_of_sizes(source.radius, source.mass).second.radius;
     check_source(scene, source, radius, place(fmt::format("sources.{}.region", k)));
   }
 }

@@ -371,7 +371,7 @@ double check_box(const Scene& scene, const PlaceOfKey& place) {
   for (std::size_t k = 0; k < scene.sources.size(); ++k) {
     const Source& source = scene.sources[k];
     const std::string path = fmt::format("sources.{}", k);
-    const auto [low, high] = source_sizes(source);
+    const auto [low, high] = ends_of_sizes(source.radius, source.mass);
     check_sizes(low, high, path, place);
     check_velocities(scene, source.velocities, low.mass, path, place);
     check_spins(scene, source.spins, low.mass, high.radius, path, place);

@@ -164,7 +164,8 @@ double largest_measured_radius(const Scene& scene) {
     first_id += static_cast<DiskId>(group.count);
   }
   if (!measured.holds(first_id)) return largest;
-  for (const Source& source : scene.sources) largest = std::max(largest, source_sizes(source).second.radius);
+  for (const Source& source : scene.sources)
+    largest = std::max(largest, ends_of_sizes(source.radius, source.mass).second.radius);
   return largest;
 }
 

@@ -118,7 +118,7 @@ SizeSummary summarise_sizes(const DiskGroup& group, std::uint64_t seed, DiskId f
 }
 
 // Each law is monotonic.
-std::pair<DiskSize, DiskSize> source_sizes(const Source& source) {
+std::pair<DiskSize, DiskSize> ends_of_sizes(const SizeLaw& radius, const SizeLaw& mass) {
   const auto end_of = [](SizeLaw law, bool high) {
     if (law.kind == SizeLaw::Kind::from_other) return law;
     const SizeRange range = size_range(law);
@@ -127,8 +127,7 @@ std::pair<DiskSize, DiskSize> source_sizes(const Source& source) {
     return law;
   };
   const auto size = [&](bool high) {
-    return draw_size(end_of(source.radius, high), end_of(source.mass, high), 0, Stream::source_radius,
-                     Stream::source_mass, 0, 0);
+    return draw_size(end_of(radius, high), end_of(mass, high), 0, Stream::radius, Stream::mass, 0, 0);
   };
   return {size(false), size(true)};
 }

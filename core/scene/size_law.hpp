@@ -36,7 +36,8 @@ struct SizeSummary {
 };
 SizeSummary summarise_sizes(const DiskGroup& group, std::uint64_t seed, DiskId first_id);
 
-// The least and the largest radius and mass that a source can give.
-std::pair<DiskSize, DiskSize> source_sizes(const Source& source);
+// The least and the largest radius and mass that a group or a source with these laws can give. Precondition: not both
+// are from_other.
+std::pair<DiskSize, DiskSize> ends_of_sizes(const SizeLaw& radius, const SizeLaw& mass);
 
 }  // namespace carom

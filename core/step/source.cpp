@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/base/check.hpp"
 #include "core/base/random.hpp"
@@ -213,8 +212,7 @@ double emission_rate(const Scene& scene, const State& state) {
 }
 
 double largest_radius_of(const Source& source) {
-  if (source.radius.kind != SizeLaw::Kind::from_other) return size_range(source.radius).high;
-  return std::sqrt(size_range(source.mass).high / (std::numbers::pi * source.radius.density));
+  return ends_of_sizes(source.radius, source.mass).second.radius;
 }
 
 void emit_due(const Scene& scene, State& state, double t, Count step, const std::function<bool(const Disk&)>& room) {

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "core/measure/invariants.hpp"
 #include "core/scene/disk_group.hpp"
@@ -58,21 +57,13 @@ double falling_square(const DisksInPieces& disks, const Gravity& gravity, const 
 }
 
 // What the radii and masses of a source may be.
-ValueRange given_range(const SizeLaw& law) {
-  const SizeRange range = size_range(law);
-  return {range.low, range.high};
-}
 ValueRange radius_range(const Source& source) {
-  if (source.radius.kind != SizeLaw::Kind::from_other) return given_range(source.radius);
-  const ValueRange mass = given_range(source.mass);
-  const double scale = std::numbers::pi * source.radius.density;
-  return {std::sqrt(mass.low / scale), std::sqrt(mass.high / scale)};
+  const auto [smallest, largest] = ends_of_sizes(source.radius, source.mass);
+  return {smallest.radius, largest.radius};
 }
 ValueRange mass_range(const Source& source) {
-  if (source.mass.kind != SizeLaw::Kind::from_other) return given_range(source.mass);
-  const ValueRange radius = given_range(source.radius);
-  const double scale = std::numbers::pi * source.mass.density;
-  return {scale * radius.low * radius.low, scale * radius.high * radius.high};
+  const auto [smallest, largest] = ends_of_sizes(source.radius, source.mass);
+  return {smallest.mass, largest.mass};
 }
 
 // Of disks of this mass at a temperature.
