@@ -28,11 +28,6 @@ constexpr double source_fill = 0.547;
 // So many draws of a source give the smallest disk and the mean area.
 constexpr Count most_draws = 1000;
 
-// The longest dt with fastest dt + fall dt^2 <= safe_travel; speeds and gravity in radii.
-double step_for(double fastest, double fall) {
-  return 2.0 * safe_travel / (fastest + std::sqrt(fastest * fastest + 4.0 * fall * safe_travel));
-}
-
 // How far a disk whose edge has this place may fall towards the side.
 double way_to(Side side, const Domain& box, Vec2 centre, double radius) {
   return std::max(-reach_beyond(side, centre.x, centre.y, radius, box), 0.0);
@@ -242,7 +237,7 @@ StepForesight foresee_steps(const Scene& scene, const Disks& start) {
   }
   const double fall_at_start = radius < infinity ? g / radius : 0.0;
   if (radius < infinity) fastest += fastest_inner_wall(scene) / radius;  // which may not jump over a disk either
-  f.at_start = std::min(step_for(fastest, fall_at_start), brownian_step(scene, radius));
+  f.at_start = std::min(step_within(safe_travel, fastest, fall_at_start), brownian_step(scene, radius));
   for (const Source& source : scene.sources) {
     if (!emits(scene, source)) continue;
     const SourceDisks d = disks_of(scene, source);
@@ -250,7 +245,7 @@ StepForesight foresee_steps(const Scene& scene, const Disks& start) {
     see(drive.speed(d.speed, d.lightest, 2.0), d.centre, d.smallest_radius);
   }
   const double fall = radius < infinity ? g / radius : 0.0;
-  f.later = std::min(step_for(later, fall), brownian_step(scene, radius));
+  f.later = std::min(step_within(safe_travel, later, fall), brownian_step(scene, radius));
   // A support is recognised by speeds of about g dt: a disk at rest falls by g dt^2 before its contact is found.
   f.resting = settles(scene) && radius < infinity ? std::sqrt(largest_overlap * radius / g) : infinity;
   return f;

@@ -34,11 +34,6 @@ double tidy(double dt) {
   return digits > dt ? two_digits(0.95 * digits) : digits;
 }
 
-// dt with linear dt + square dt^2 = accuracy; infinite where neither term exists.
-double step_for(double accuracy, double linear, double square) {
-  return 2.0 * accuracy / (linear + std::sqrt(linear * linear + 4.0 * square * accuracy));
-}
-
 // Terms of pairwise's error law.
 struct ErrorLaw {
   double linear = 0.0;  // 1 / time
@@ -95,7 +90,7 @@ MethodOffer offer_pairwise(const Scene& scene, const SceneScales& s, double accu
   MethodOffer offer;
   offer.method = Method::pairwise;
   const ErrorLaw law = pairwise_law(s);
-  const double wanted = step_for(accuracy, law.linear, law.square);
+  const double wanted = step_within(accuracy, law.linear, law.square);
   const double kicks = scene.physics.thermostat.acts() ? scene.physics.thermostat.dt : HUGE_VAL;
   const double safe = std::min(safe_step(s), kicks);
   offer.dt = tidy(std::min({wanted, safe, scene.run.t_end > 0.0 ? scene.run.t_end : 1.0}));
@@ -168,7 +163,7 @@ void offer_brownian(const Scene& scene, const SceneScales& s, double accuracy, M
     const bool stepping = method == Method::pairwise;
     const double linear = x * (rates::brownian_interval + (stepping ? rates::second_collision : 0.0));
     const double square = stepping ? rates::crowding * x * x : 0.0;
-    const double root = std::min(step_for(accuracy, linear, square), safe_root);
+    const double root = std::min(step_within(accuracy, linear, square), safe_root);
     offer.dt = tidy(std::min(root * root, scene.run.t_end > 0.0 ? scene.run.t_end : 1.0));
     offer.error = linear * std::sqrt(offer.dt) + square * offer.dt;
     const double intervals = std::max(1.0, scene.run.t_end / offer.dt);

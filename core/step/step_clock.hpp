@@ -57,6 +57,11 @@ inline void count_step(Counters& c, Count before, Count after, double length) {
 // most half the sum of their radii: none can jump over another, only graze (F5 of docs/original.md). Smaller costs
 // parts, larger misses glancing hits (their share grows with the square of the travel).
 inline constexpr double safe_travel = 0.5;
+
+// The dt with linear dt + square dt^2 = limit, each of these >= 0; infinite where neither term exists.
+inline double step_within(double limit, double linear, double square) {
+  return 2.0 * limit / (linear + std::sqrt(linear * linear + 4.0 * square * limit));
+}
 inline constexpr double most_parts = 1000.0;
 
 // Into how many equal parts a step of length dt must be split. travel2: largest (speed / radius)^2 of all disks, units
