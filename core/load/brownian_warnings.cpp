@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string_view>
 
 #include "core/scene/drawn_velocities.hpp"
@@ -48,23 +49,33 @@ std::string key_of_motion(const Scene& scene) {
   return "";
 }
 
-// The wall_restitution of the box is what sides have in common; one that no other side has is a side's own.
-std::string key_of_side(const Domain& box, Side side) {
-  const auto alike = std::count(box.restitutions.begin(), box.restitutions.end(), box.restitution(side));
-  if (alike > 1) return "box.wall_restitution";
-  return fmt::format("box.{}.restitution", side_names[static_cast<std::size_t>(side)]);
+// The box's wall_restitution, as far as its sides tell: those that are no walls have it, or all walls but one.
+std::optional<double> common_restitution(const Domain& box) {
+  for (const Side side : all_sides) {
+    if (box.side(side) != SideKind::wall) return box.restitution(side);
+  }
+  for (const double r : box.restitutions) {
+    if (std::count(box.restitutions.begin(), box.restitutions.end(), r) >= 3) return r;
+  }
+  return {};
 }
 
 // The first key that lets a contact take energy, empty if there is none.
 std::string key_of_loss(const Scene& scene) {
+  const std::optional<double> common = common_restitution(scene.box);
+  const auto key_of_wall = [&](double restitution, const std::string& own) {
+    return restitution == common ? "box.wall_restitution" : own + ".restitution";
+  };
   if (scene.physics.restitution < 1.0) return "physics.restitution";
   if (scene.physics.law.dissipates()) return "physics.pairs";
   for (const Side side : all_sides) {
-    if (scene.box.side(side) == SideKind::wall && scene.box.restitution(side) < 1.0)
-      return key_of_side(scene.box, side);
+    const double restitution = scene.box.restitution(side);
+    if (scene.box.side(side) != SideKind::wall || !(restitution < 1.0)) continue;
+    return key_of_wall(restitution, fmt::format("box.{}", side_names[static_cast<std::size_t>(side)]));
   }
   for (std::size_t k = 0; k < scene.walls.size(); ++k) {
-    if (scene.walls[k].restitution < 1.0) return fmt::format("walls.{}.restitution", k);
+    const double restitution = scene.walls[k].restitution;
+    if (restitution < 1.0) return key_of_wall(restitution, fmt::format("walls.{}", k));
   }
   return "";
 }

@@ -56,6 +56,15 @@ t_end = 1.0
               testing::ElementsAre(HasSubstr("box.left.restitution: Brownian disks")));
   EXPECT_THAT(warned("", "[[walls]]\nfrom = [9.0, 9.0]\nto = [11.0, 9.0]\nrestitution = 0.5\n"),
               testing::ElementsAre(HasSubstr("walls.0.restitution: Brownian disks")));
+  EXPECT_THAT(warned("", "[[walls]]\nfrom = [9.0, 9.0]\nto = [11.0, 9.0]\n",
+                     {{"box.wall_restitution", "0.5"},
+                      {"box.left", "periodic"},
+                      {"box.right", "periodic"},
+                      {"box.bottom", "periodic"},
+                      {"box.top", "periodic"}}),
+              testing::ElementsAre(HasSubstr("box.wall_restitution: Brownian disks")));
+  EXPECT_THAT(warned("", "", {{"box.left", "{ restitution = 0.5 }"}, {"box.top", "{ restitution = 0.5 }"}}),
+              testing::ElementsAre(HasSubstr("box.left.restitution: Brownian disks")));
   EXPECT_THAT(warned("", "[[physics.pairs]]\ngroups = [\"a\", \"a\"]\nrestitution = 0.5\n", {{"disks.0.name", "a"}}),
               testing::ElementsAre(HasSubstr("physics.pairs: Brownian disks")));
   EXPECT_THAT(warned("gravity = 3.0\naccumulate = true\n", "", {{"disks.0.mass", "{ uniform = [1, 2] }"}}),
