@@ -98,12 +98,24 @@ std::string where_it_belongs(std::string_view name) {
   return tables.empty() ? "" : fmt::format(" ({} is a key of {})", name, tables);
 }
 
-// What a string is: "a string", or the number that it would be if it were not too large.
+// Of a decimal number that no double can hold: would it be nearer to 0 than 1 is?
+bool is_below_one(const std::string& number) {
+  const std::size_t e = number.find_first_of("eE");
+  if (e != std::string::npos) return number.compare(e + 1, 1, "-") == 0;
+  const std::size_t first = number.find_first_not_of("-0");
+  return first != std::string::npos && number[first] == '.';
+}
+
+// What a string is: "a string", or the number that it would be if it were not too large or too small.
 std::string text_name(const std::string& text) {
   const char* const last = text.data() + text.size();
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), last, value);
   if (text.empty() || end != last) return "a string";
+  if (error == std::errc::result_out_of_range && is_below_one(text)) {
+    return fmt::format("{}, too small for a double, which begins at {:.2g}", text,
+                       std::numeric_limits<double>::denorm_min());
+  }
   if (error == std::errc::result_out_of_range) {
     return fmt::format("{}, too large for a double, which ends at {:.2g}", text, std::numeric_limits<double>::max());
   }

@@ -59,6 +59,7 @@ TEST_F(LongCommandLine, OtherBadUsageOfRunIsOneLineWithStatusTwo) {
       {"check small.toml --json=none", "--json: has a value, and takes none; expected it alone"},
       {"run small.toml --dt 0.1x", "--dt: \"0.1x\" is not a number"},
       {"run small.toml --dt nan", "--dt: \"nan\" is not a number"},
+      {"run small.toml --dt 1e-400", "--dt: is 1e-400, which no double holds; expected a number such as 0.01"},
       {"run small.toml --dt -1", "--dt: is -1; expected a number above 0"},
       {"run small.toml --t-end -1", "--t-end: is -1"},
       {"run small.toml --seed -3", "--seed: is \"-3\""},

@@ -352,6 +352,14 @@ TEST(BadOverride, IsNamedByItsKey) {
             "--set run.t_end: is 1e999, too large for a double, which ends at 1.8e+308; expected a number");
   EXPECT_THAT(complaint(sound_scene, {{"physics.gravity", "-1e999"}}),
               StartsWith("--set physics.gravity: is -1e999, too large for a double"));
+  for (const std::string& small :
+       {std::string("1e-400"), std::string("-2.5E-0400"), "0." + std::string(400, '0') + "1"}) {
+    EXPECT_EQ(complaint(sound_scene, {{"run.t_end", '"' + small + '"'}}),
+              fmt::format("--set run.t_end: is {}, too small for a double, which begins at 4.9e-324; expected a number",
+                          small));
+  }
+  EXPECT_THAT(complaint(sound_scene, {{"run.t_end", "1" + std::string(400, '0') + ".0"}}),
+              HasSubstr("0.0, too large for a double"));
   EXPECT_THAT(complaint(sound_scene, {{"disks.0.count", "99999999999999999999"}}),
               StartsWith("--set disks.0.count: is 99999999999999999999, too large for the 64 bits of a whole number; "
                          "write it as 1e+20; expected a whole number"));
