@@ -67,6 +67,9 @@ RunSettings settings_of(const CarryOptions& options) {
 
 int run_and_report(const CarryOptions& options, const Scene& scene, RunSettings settings,
                    std::optional<ResumeFrom> from, std::unique_ptr<SetupWatch> setup) {
+  if (!options.quiet && options.threads.value_or(1) > settings.engine.threads) {
+    print_note(fmt::format("--threads {}: the reference runs on one", *options.threads));
+  }
   const RunOutcome outcome = run_shown(options, scene, std::move(settings), std::move(from), std::move(setup));
   const Summary& summary = outcome.summary;
   const bool stopped = !outcome.stopped_by.empty();

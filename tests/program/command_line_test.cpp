@@ -212,6 +212,12 @@ TEST_F(CommandLine, HelpAndVersion) {
               HasSubstr("--engine parallel|reference default that of the run so far; both"));
 }
 
+TEST_F(CommandLine, ThreadsThatTheReferenceDoesNotUseAreTold) {
+  const std::string note = "carom: --threads 2: the reference runs on one\n";
+  EXPECT_THAT(carom("run small.toml -o a --threads 2 --engine reference").err, HasSubstr(note));
+  EXPECT_THAT(carom("run small.toml -o b --threads 2").err, Not(HasSubstr(note)));
+}
+
 TEST_F(CommandLine, HelpIsAWordToo) {
   EXPECT_EQ(carom("help").out, carom("--help").out);
   EXPECT_EQ(carom("help run").out, carom("run --help").out);
