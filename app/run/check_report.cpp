@@ -146,8 +146,11 @@ std::string physics_text(const Scene& scene) {
 std::string method_text(const Scene& scene) {
   const std::string_view name = name_of(scene.run.method);
   if (!uses_dt(scene)) return fmt::format("{} to t = {:g}", name, scene.run.t_end);
-  return fmt::format("{}, dt = {:g}, {} to t = {:g}", name, scene.run.dt,
-                     counted(make_step_clock(scene.run.dt, scene.run.t_end).steps, "step"), scene.run.t_end);
+  // A window ends at a draw, or before; a frame of rollback may be shorter than dt.
+  const char* const each = scene.run.method == Method::exact ? "draw" : "step";
+  return fmt::format("{}, dt = {:g}, {}{} to t = {:g}", name, scene.run.dt,
+                     counted(make_step_clock(scene.run.dt, scene.run.t_end).steps, each),
+                     scene.run.method == Method::rollback ? " or more" : "", scene.run.t_end);
 }
 
 std::string step_text(const Scene& scene, const Findings& f) {

@@ -65,6 +65,14 @@ TEST_F(CheckReport, ThePhysicsIsInWords) {
               HasSubstr("; the TC model, contact time 1e-06\n"));
 }
 
+// What a run counts as steps are more where windows of exact end before a draw, or frames of rollback are cut short.
+TEST_F(CheckReport, StepsAreWhatDtTells) {
+  EXPECT_THAT(said(""), HasSubstr("  method      pairwise, dt = 0.01, 1000 steps to t = 10\n"));
+  EXPECT_THAT(said("--method rollback"), HasSubstr("rollback, dt = 0.01, 1000 steps or more to t = 10\n"));
+  EXPECT_THAT(said("--method exact --set physics.diffusion=0.1 --set physics.gravity=0"),
+              HasSubstr("exact, dt = 0.01, 1000 draws to t = 10\n"));
+}
+
 TEST_F(CheckReport, FixedDisksAndInnerWallsAreCounted) {
   EXPECT_THAT(said("--set 'walls=[{ from = [1, 1], to = [2, 1] }]'"), HasSubstr(", top wall; 1 inner wall\n"));
   EXPECT_THAT(said("--set 'walls=[{ from = [1, 1], to = [2, 1] }, { from = [1, 2], to = [2, 2], kind = \"sink\" }]'"),
