@@ -294,6 +294,7 @@ Json ranks_json(const Told& t) {
              {"disks", r.disks},
              {"first_memory_bytes", r.first_bytes},
              {"memory_bytes", r.other_bytes},
+             {"tried", r.traffic.ranks},
              {"messages", r.traffic.messages},
              {"bytes", r.traffic.bytes}};
   if (!r.alone.empty()) ranks["alone"] = r.alone;
@@ -302,9 +303,10 @@ Json ranks_json(const Told& t) {
 
 std::string ranks_text(const RankForesight& r) {
   if (!r.alone.empty()) return fmt::format("{}, of which one runs all disks: {}", r.ranks, r.alone);
-  return fmt::format("{} with about {:.0f} disks each: {}B of memory, the first {}B; {:.1f} messages with {}B a step",
+  const std::string tried = r.traffic.ranks < r.ranks ? fmt::format(", from a trial on {}", r.traffic.ranks) : "";
+  return fmt::format("{} with about {:.0f} disks each: {}B of memory, the first {}B; {:.1f} messages with {}B a step{}",
                      r.ranks, r.disks, short_number(r.other_bytes), short_number(r.first_bytes), r.traffic.messages,
-                     short_number(r.traffic.bytes));
+                     short_number(r.traffic.bytes), tried);
 }
 
 // A new key is a row here.
@@ -350,8 +352,8 @@ const JsonKey<Told> check_keys[] = {
      [](const Told& t) -> Json { return t.found.growth_seconds > 0.0 ? Json(t.found.growth_seconds) : absent(); }},
     {"ranks", "",
      "only with `--ranks`, an object: their `count`, `disks` of each, `memory_bytes` of each but the first, "
-     "`first_memory_bytes` of that, and the `messages` and `bytes` that each sends in a step; where the first runs all "
-     "disks, why, as `alone`",
+     "`first_memory_bytes` of that, and the `messages` and `bytes` that each sends in a step, from a trial on `tried` "
+     "ranks, three at most; where the first runs all disks, why, as `alone`",
      [](const Told& t) -> Json { return ranks_json(t); }},
     {"choice", "", "only with `--accuracy`: an object with the method and step that it needs, and all `offers`",
      [](const Told& t) -> Json { return t.accuracy ? choice_json(t.scene, *t.accuracy) : absent(); }},

@@ -195,9 +195,9 @@ void try_ranks(const Scene& scene, const EngineChoice& choice, int ranks, bool t
   found.ranks = within_memory(scene, [&] { return foresee_ranks(scene, make_initial_state(choice, scene), ranks); });
   if (const SlabTraffic& tried_on = found.ranks->traffic; tried_on.lone_steps > 0) {
     found.troubles.push_back(
-        fmt::format("in {} of {} that were tried one rank ran all disks, as slabs were too thin, or too crowded; fewer "
-                    "ranks would do, or a higher box",
-                    tried_on.lone_steps, counted(tried_on.steps, "step")));
+        fmt::format("in {} of {} that were tried on {} ranks one of them ran all disks, as slabs were too thin, or too "
+                    "crowded; fewer ranks would do, or a higher box",
+                    tried_on.lone_steps, counted(tried_on.steps, "step"), tried_on.ranks));
   }
   if (found.ranks->first_has_all) {
     found.ranks->first_bytes = found.memory_bytes + mpi_bytes;

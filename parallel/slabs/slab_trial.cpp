@@ -76,7 +76,7 @@ SlabTraffic try_slabs(const Scene& scene, const State& start, int ranks, double 
   return {agreed + static_cast<double>(all.exchange.messages + all.others.messages) / parts,
           agreed * sizeof(std::int64_t) +
               (scale * static_cast<double>(all.exchange.bytes) + static_cast<double>(all.others.bytes)) / parts,
-          all.steps, all.idle};
+          all.steps, all.idle, count};
 }
 
 }  // namespace carom

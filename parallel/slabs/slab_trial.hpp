@@ -10,6 +10,7 @@ struct SlabTraffic {
   double messages = 0.0, bytes = 0.0;  // of a step and a rank, in the mean
   Count steps = 0;                     // that were tried
   Count lone_steps = 0;                // those of them that one rank ran for all, as slabs were too thin or too crowded
+  int ranks = 0;                       // on which they were tried
 };
 
 // Tries for so many seconds, but one step at least, on three ranks at most: an inner slab has two borders however many

@@ -136,7 +136,6 @@ TEST_F(CheckReport, AWallThatMovesAlongItselfDoesNothing) {
   EXPECT_THAT(with_end_at("6"), Not(HasSubstr("moves along itself")));
 }
 
-// Where nothing can be written on trial.
 // exact looks ten spacings and more beyond a slab: nothing of it is left where slabs are as thin as that.
 TEST_F(CheckReport, ThatOneRankRunsAllDisksIsTold) {
   const auto troubles = [&](const char* height) {
@@ -145,9 +144,21 @@ TEST_F(CheckReport, ThatOneRankRunsAllDisksIsTold) {
                 "{ maxwell = 1.0 }, radius = 0.5, mass = 1.0 }]'")["troubles"];
   };
   ASSERT_EQ(troubles("40").size(), 1U);
-  EXPECT_THAT(troubles("40")[0].get<std::string>(),
-              testing::ContainsRegex("^in ([0-9]+) of [0-9]+ steps? that were tried one rank ran all disks, as slabs"));
+  EXPECT_THAT(
+      troubles("40")[0].get<std::string>(),
+      testing::ContainsRegex("^in ([0-9]+) of [0-9]+ steps? that were tried on 2 ranks one of them ran all disks"));
   EXPECT_EQ(troubles("400"), Json::array());
+}
+
+// A trial has no more than three ranks.
+TEST_F(CheckReport, OnHowManyRanksItTriedIsTold) {
+  const std::string tall = " --method pairwise --set physics.gravity=0 --set box.height=80";
+  const Json two = json("--ranks 2" + tall)["ranks"], five = json("--ranks 5" + tall)["ranks"];
+  EXPECT_EQ(two["tried"], 2);
+  EXPECT_EQ(five["count"], 5);
+  EXPECT_EQ(five["tried"], 3);
+  EXPECT_THAT(said("--ranks 2" + tall), Not(HasSubstr("from a trial on")));
+  EXPECT_THAT(said("--ranks 5" + tall), HasSubstr("a step, from a trial on 3\n"));
 }
 
 // Neither ffmpeg's memory nor plots that nobody draws are counted.
@@ -160,6 +171,7 @@ TEST_F(CheckReport, WhatARunLacksWithoutFfmpegAndGnuplot) {
   EXPECT_EQ(j["cost_parts_s"]["plots"], 0.0);
 }
 
+// Where nothing can be written on trial.
 TEST_F(CheckReport, FilesAreGuessed) {
   const std::string all = "--set output.series=true --set output.movie=true --set output.trajectory='\"xyz\"'";
   const Json light = json(all + " --set output.select='\"light\"'", "two.toml", "TMPDIR=/nonexistent ")["files_bytes"];
