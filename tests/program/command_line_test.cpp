@@ -248,8 +248,11 @@ TEST_F(LongCommandLine, ChartWritesAllItsFilesOrNone) {
   expect_error("$C chart --tiny -o small.toml", 2, "small.toml: is a file");
   expect_error("$C chart --quik", 2, "chart: there is no option \"--quik\"; expected one of");
   expect_error("$C chart now", 2, "chart: one argument too many, \"now\"");
-  // Ctrl-C long before the end.
-  shell("timeout --signal=INT 1 $C chart --quiet -o stopped/here");
+  // Ctrl-C when it has measured for a second of processor time, long before the end.
+  const pid_t stopped = start({"chart", "--quiet", "-o", "stopped/here"});
+  shell(fmt::format("until [ \"$(ps -o cputimes= -p {})\" -ge 1 ]; do sleep 0.01; done", stopped));
+  kill(stopped, SIGINT);
+  EXPECT_EQ(wait_for(stopped), -SIGINT) << said();
   EXPECT_THAT(files_in(""), ElementsAre("chart", "small.toml"));
 }
 

@@ -2,6 +2,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -195,13 +196,19 @@ TEST_F(SweepTest, ItsRunsEndWithIt) {
   const auto [status, text] = carom("sweep gas.toml -o s --seeds 2 --force");
   EXPECT_EQ(status, 2);
   EXPECT_THAT(text, HasSubstr("s: another sweep is running there; expected a folder of its own (-o)"));
-  // SIGUSR1 is for a checkpoint of each run, which goes on.
-  kill(sweep, SIGUSR1);
-  for (const char* const run : {"0001", "0002"}) {
-    while (!fs::exists(checkpoint(run) / "checkpoint.previous.carom")) usleep(1000);
+  // SIGUSR1 is for a checkpoint of each run, which goes on, to the next one: another file, as the earlier one is kept.
+  const auto file_of = [&](const char* run) {
+    struct stat found {};
+    return stat((checkpoint(run) / "checkpoint.carom").c_str(), &found) == 0 ? found.st_ino : 0;
+  };
+  for (int k = 0; k < 2; ++k) {
+    const ino_t before1 = file_of("0001"), before2 = file_of("0002");
+    kill(sweep, SIGUSR1);
+    for (ino_t now1 = 0, now2 = 0; now1 == 0 || now2 == 0 || now1 == before1 || now2 == before2; usleep(1000)) {
+      ASSERT_EQ(waitpid(sweep, nullptr, WNOHANG), 0);
+      now1 = file_of("0001"), now2 = file_of("0002");
+    }
   }
-  usleep(300'000);
-  EXPECT_EQ(waitpid(sweep, nullptr, WNOHANG), 0);
   kill(sweep, SIGKILL);
   waitpid(sweep, nullptr, 0);
   // Their locks go with them.

@@ -30,15 +30,18 @@ TEST_F(RanksRun, AKilledRankEndsAllAndNothingIsLost) {
       const auto delay = static_cast<useconds_t>(random() % 300'000);
       SCOPED_TRACE(fmt::format("run {}: rank {} of {}, after {} us", k, victim, count, delay));
       const std::string ranks = std::to_string(count);
+      const auto started = std::chrono::steady_clock::now();
       const pid_t run = kills == 0 ? start_long(folder, ranks, exact ? exact_tall : "") : resume_long(folder, ranks);
       const std::vector<pid_t> all = ranks_of(folder);
       ASSERT_EQ(all.size(), count);
       const std::size_t before = said().size();
+      // On a machine so busy that the start takes long, so may the end.
+      const auto start_took = std::chrono::steady_clock::now() - started;
       usleep(delay);
       kill(all[victim], SIGKILL);
       const auto begin = std::chrono::steady_clock::now();
       EXPECT_EQ(wait_for(run), 1);
-      EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+      EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10) + 10 * start_took);
       EXPECT_EQ(said().substr(before),
                 "carom: error: one of the ranks was killed by signal 9; the last checkpoint, if the run has written "
                 "any, is whole: carom resume with its folder\n");
@@ -62,9 +65,9 @@ TEST_F(RanksRun, AStoppedRankIsWaitedFor) {
     kill(ranks[victim], SIGSTOP);
     sleep(3);
     EXPECT_EQ(waitpid(run, nullptr, WNOHANG), 0) << said();
+    const auto last = checkpoint_time(folder);
     kill(ranks[victim], SIGCONT);
-    usleep(300'000);
-    EXPECT_EQ(waitpid(run, nullptr, WNOHANG), 0) << said();
+    await_checkpoint_after(last, folder, run);
     kill(run, SIGTERM);
     EXPECT_EQ(wait_for(run), 4) << said();
     expect_undisturbed(folder, 3);

@@ -62,13 +62,22 @@ class RanksRun : public ProgramTest {
   // The run of a folder that was killed goes on, on so many ranks, until it is killed once more: when it has written a
   // checkpoint of its own.
   pid_t resume_long(const std::string& folder, const std::string& ranks) const {
-    const std::filesystem::file_time_type last = std::filesystem::last_write_time(checkpoint_of(folder));
+    const std::filesystem::file_time_type last = checkpoint_time(folder);
     const pid_t run = start({"resume", folder, "--quiet", "--ranks", ranks});
-    std::error_code none;  // while a new one takes its place
-    for (std::filesystem::file_time_type now = last; (now == last || none) && is_running(run); usleep(1000)) {
-      now = std::filesystem::last_write_time(checkpoint_of(folder), none);
-    }
+    await_checkpoint_after(last, folder, run);
     return run;
+  }
+
+  // Until the run of a folder has written another checkpoint than that of this time.
+  void await_checkpoint_after(std::filesystem::file_time_type last, const std::string& folder, pid_t run) const {
+    const auto none = std::filesystem::file_time_type::min();
+    for (auto now = last; (now == last || now == none) && is_running(run); usleep(1000)) now = checkpoint_time(folder);
+  }
+
+  // Of the last checkpoint; the least that there is while a new one takes its place.
+  std::filesystem::file_time_type checkpoint_time(const std::string& folder) const {
+    std::error_code ignored;
+    return std::filesystem::last_write_time(checkpoint_of(folder), ignored);
   }
 
   std::filesystem::path checkpoint_of(const std::string& folder) const {
