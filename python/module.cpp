@@ -18,6 +18,7 @@
 #include "core/base/wall_clock.hpp"
 #include "core/disks/state_hash.hpp"
 #include "core/load/scene_check.hpp"
+#include "core/scene/disk_group.hpp"
 #include "core/scene/scene_text.hpp"
 #include "io/files/output_folder.hpp"
 #include "io/movie/frame.hpp"
@@ -64,6 +65,17 @@ py::dict columns_of(const Disks& d, bool spins) {
   columns["mass"] = size_column(d.mass, d.size(), d.common_mass);
   columns["id"] = copied(d.id);
   if (spins) columns["spin"] = copied(d.spin);
+  return columns;
+}
+
+// Of disks of a simulation: those of its trajectory, but for the rounds.
+py::dict columns_of(const Disks& d, const Scene& scene) {
+  py::dict columns = columns_of(d, d.spins());
+  if (!has_several_groups(scene)) return columns;
+  const std::vector<DiskId> ends = ends_of_groups(scene);
+  std::vector<DiskId> group(d.size());
+  std::transform(d.id.begin(), d.id.end(), group.begin(), [&](DiskId id) { return group_of(ends, id); });
+  columns["group"] = copied(group);
   return columns;
 }
 
@@ -341,14 +353,13 @@ void bind_simulation(py::module_& m) {
       .def("paint", &paint)
       .def("disks",
            [](const PySimulation& s) {
-             const Disks disks = s.look().disks();
-             return columns_of(disks, disks.spins());
+             return columns_of(s.look().disks(), s.look().scene());
            })
       .def("disks_at",
            [](const PySimulation& s, double t) {
              Disks disks;
              const double at = s.look().disks_at(t, disks);
-             return py::make_tuple(at, columns_of(disks, disks.spins()));
+             return py::make_tuple(at, columns_of(disks, s.look().scene()));
            })
       .def("save", [](const PySimulation& s, const std::string& file) { s.look().save(file); })
       .def("save_bytes", [](const PySimulation& s) { return py::bytes(s.look().save()); })

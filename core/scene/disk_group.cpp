@@ -15,6 +15,10 @@ DiskId group_of(const std::vector<DiskId>& ends, DiskId id) {
   return static_cast<DiskId>(std::upper_bound(ends.begin(), ends.end(), id) - ends.begin());
 }
 
+bool has_several_groups(const Scene& scene) {
+  return scene.groups.size() + (scene.sources.empty() ? 0 : 1) > 1;
+}
+
 std::vector<NamedGroup> named_groups(const Scene& scene) {
   std::vector<NamedGroup> named;
   const std::vector<DiskId> ends = ends_of_groups(scene);

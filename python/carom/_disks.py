@@ -39,8 +39,9 @@ class Disks:
 
 
 class Frame(Disks):
-    """Disks in order of id, and the box; of a trajectory, with the columns that its file has: group, and image_x and
-    image_y, the rounds across periodic sides since the first frame. Unwrapped, a disk is at x + image_x * box[0].
+    """Disks in order of id, and the box. group, where there are several: the [[disks]] block, counted from 0, one more for
+    disks from sources and those of Simulation.add. Of a trajectory, with image_x and image_y where its file has them: the
+    rounds across periodic sides since the first frame. Unwrapped, a disk is at x + image_x * box[0].
 
     to_ase, to_freud and to_gsd make what these programs take.
     """

@@ -103,7 +103,7 @@ XyzPlan RunOutputs::xyz_plan() const {
   XyzPlan plan{scene_.box, scene_.output.select};
   plan.spins = scene_.physics.surfaces.are_rough();
   plan.single = scene_.output.single_precision;
-  if (scene_.groups.size() + (scene_.sources.empty() ? 0 : 1) > 1) plan.group_ends = ends_of_groups(scene_);
+  if (has_several_groups(scene_)) plan.group_ends = ends_of_groups(scene_);
   if (shows_rounds()) plan.rounds = &rounds_;
   return plan;
 }

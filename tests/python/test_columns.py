@@ -28,10 +28,11 @@ def test_a_view_has_the_columns_of_the_copies():
     sim = carom.Simulation(mixture(), threads=1)
     sim.step(50)
     disks = sim.disks()
-    assert disks.names == ("x", "y", "vx", "vy", "radius", "mass", "id", "spin")
+    assert disks.names == ("x", "y", "vx", "vy", "radius", "mass", "id", "spin", "group")
+    assert list(disks.group) == [0] * 20 + [1] * 10, "which a view does not have, as nothing in memory is it"
     with sim.view() as v:
         order = np.argsort(v.id)
-        for name in disks.names:
+        for name in disks.names[:-1]:
             column = getattr(v, name)
             assert not column.flags.writeable and np.array_equal(column[order], getattr(disks, name)), name
     assert len({tuple(getattr(disks, name)) for name in disks.names}) == len(disks.names)
@@ -74,10 +75,10 @@ def test_changes_reach_the_disk_and_the_column():
         sim.remove(id)
     assert sim.add(5.0, 6.0, vx=0.25, vy=-0.5, radius=0.75, mass=2.0, spin=3.0) == 30
     disks = sim.disks()
-    assert [float(getattr(disks, name)[0]) for name in disks.names] == [5.0, 6.0, 0.25, -0.5, 0.75, 2.0, 30.0, 3.0]
+    assert [float(getattr(disks, name)[0]) for name in disks.names] == [5.0, 6.0, 0.25, -0.5, 0.75, 2.0, 30.0, 3.0, 2.0]
     assert sim.add(12.0, 6.0) == 31
     disks = sim.disks()
-    assert [float(getattr(disks, name)[1]) for name in disks.names] == [12.0, 6.0, 0.0, 0.0, 1.0, 1.0, 31.0, 0.0]
+    assert [float(getattr(disks, name)[1]) for name in disks.names] == [12.0, 6.0, 0.0, 0.0, 1.0, 1.0, 31.0, 0.0, 2.0]
     sim.remove(31)
     assert sim.set_velocity(30, 1.5, -2.5)
     disks = sim.disks()
@@ -123,8 +124,10 @@ def test_frames_have_their_box_and_groups(form, tmp_path):
     assert list(last.group) == [0] * 20 + [1] * 10
     sim = carom.Simulation(scene, threads=1)
     sim.run()
+    assert "group" in sim.disks().names
     for name in sim.disks().names:
         assert np.array_equal(getattr(last, name), getattr(sim.disks(), name)), name
+        assert getattr(last, name).dtype == getattr(sim.disks(), name).dtype, name
 
 
 def test_options_of_a_run(tmp_path):
