@@ -138,8 +138,8 @@ PixelArea FramePainter::box_area(const Surface& surface) const {
   return {reinterpret_cast<std::uint32_t*>(cairo_image_surface_get_data(surface.get())),
           cairo_image_surface_get_stride(surface.get()) / 4,
           static_cast<int>(layout_.left),
-          static_cast<int>(std::lround(layout_.bottom - style_.box.height * layout_.scale)),
-          static_cast<int>(std::lround(layout_.left + style_.box.width * layout_.scale)),
+          static_cast<int>(std::lround(layout_.bottom - layout_.upwards(style_.box))),
+          static_cast<int>(std::lround(layout_.left + layout_.across(style_.box))),
           static_cast<int>(layout_.bottom)};
 }
 
@@ -252,8 +252,7 @@ void FramePainter::write_svg(const std::string& path, const Disks& disks, double
     cairo_paint(c);
     draw_legends(c, style_, layout_);
     cairo_save(c);
-    cairo_rectangle(c, layout_.left, layout_.bottom, style_.box.width * layout_.scale,
-                    -style_.box.height * layout_.scale);
+    cairo_rectangle(c, layout_.left, layout_.bottom, layout_.across(style_.box), -layout_.upwards(style_.box));
     cairo_clip(c);
     const auto draw = [c](double x, double y, double radius, const Colour& colour) {
       // A rim as in fill_disk, within the disk's radius.

@@ -2,6 +2,7 @@
 // a list of groups, the time.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -56,6 +57,10 @@ struct FrameLayout {
   double scale = 1.0;               // pixels per length
   double left = 0.0, bottom = 0.0;  // where the box's origin lies
   int width = 0, height = 0;        // of the image; both even, as video codecs want them
+
+  // What the box takes, in pixels: one at least, so that a box however long and narrow shows its disks.
+  double across(const Domain& box) const { return std::max(1.0, box.width * scale); }
+  double upwards(const Domain& box) const { return std::max(1.0, box.height * scale); }
 };
 FrameLayout frame_layout(const FrameStyle& style);
 

@@ -219,9 +219,9 @@ void draw_sides(cairo_t* c, const FrameStyle& style, const FrameLayout& layout, 
   const Domain box = box_at(style.box, time);
   const auto inset = [&](Side side) { return box.place(side).inset; };
   const double left = layout.left + inset(Side::left) * layout.scale - out;
-  const double right = layout.left + (box.width - inset(Side::right)) * layout.scale + out;
+  const double right = layout.left + layout.across(box) - inset(Side::right) * layout.scale + out;
   const double low = layout.bottom - inset(Side::bottom) * layout.scale + out;
-  const double high = layout.bottom - (box.height - inset(Side::top)) * layout.scale - out;
+  const double high = layout.bottom - layout.upwards(box) + inset(Side::top) * layout.scale - out;
   for (const Side side : all_sides) {
     set_stroke(c, box.side(side), layout.unit);
     cairo_move_to(c, side == Side::right ? right : left, side == Side::top ? high : low);

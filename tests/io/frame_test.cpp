@@ -55,6 +55,25 @@ TEST(FrameLayout, TheBoxIsInTheMiddleOfWhatTheMarginsLeave) {
   EXPECT_NEAR(wide.bottom, wide.height - bottom_margin * wide.unit, 0.6);
 }
 
+// Of a channel of hard rods nothing was seen but its walls.
+TEST(Frame, ABoxThinnerThanAPixelShowsItsDisks) {
+  for (const SideKind side : {SideKind::wall, SideKind::periodic}) {
+    Domain flat{4000.0, 1.0}, tall{1.0, 4000.0};
+    flat.sides.fill(side);
+    tall.sides.fill(side);
+    FramePainter across({"", flat, 1.0, 1}), upwards({"", tall, 1.0, 1});
+    across.paint(one_disk(1000.0, 0.5, 1.0, 0.4), 0.0);
+    upwards.paint(one_disk(0.5, 1000.0, 1.0, 0.4), 0.0);
+    const FrameLayout wide = frame_layout({"", flat, 1.0, 1}), high = frame_layout({"", tall, 1.0, 1});
+    const int row = static_cast<int>(wide.bottom) - 1, column = static_cast<int>(high.left);
+    const std::uint32_t disk = packed(viridis(1.0));
+    EXPECT_EQ(pixel(across, static_cast<int>(wide.left) + 240, row), disk);
+    EXPECT_EQ(pixel(across, static_cast<int>(wide.left) + 480, row), white);
+    EXPECT_EQ(pixel(upwards, column, static_cast<int>(high.bottom) - 200), disk);
+    EXPECT_EQ(pixel(upwards, column, static_cast<int>(high.bottom) - 400), white);
+  }
+}
+
 // Disks reach to the sides and no further; the lines of the sides are outside.
 TEST(Frame, WhatIsInTheBoxReachesToItsSides) {
   FramePainter painter({"", square_box(10.0), 1.0, 1});
