@@ -139,7 +139,9 @@ void render_picture(const Recording& recording, const RenderOptions& options, co
   }
   const auto reader = open_frames(recording);
   TrajectoryFrame frame;
-  for (Count k = 0; k < wanted; ++k) reader->read(frame);
+  for (Count k = 0; k < wanted; ++k) {
+    if (!reader->read(frame)) fail_replaced(recording);
+  }
   FramePainter painter(style_of(recording, options, survey));
   const WorkFolder work(target.file);
   const fs::path made = work.path / "frame";
@@ -183,7 +185,8 @@ void render_movie(const Recording& recording, const RenderOptions& options, cons
   }
   const auto reader = open_frames(recording);
   TrajectoryFrame frame;
-  for (Count k = 0; k < survey.frames && reader->read(frame); ++k) {
+  for (Count k = 0; k < survey.frames; ++k) {
+    if (!reader->read(frame)) fail_replaced(recording);  // by a shorter one, in the same file
     movie.add(frame.disks, frame.time, frame.group);
     HeldSignals::end_if_asked();
   }
@@ -203,6 +206,8 @@ int command_render(const RenderOptions& options) {
     check_free(target.file, options.force);
   }
   check_writable(target.made());
+  const std::string note = note_of_another_run(recording);
+  if (!options.quiet && !note.empty()) print_note(note);
   if (target.movie) {
     render_movie(recording, options, target);
   } else {

@@ -18,6 +18,8 @@ int command_view(const ViewOptions& options) {
   const Recording recording = open_recording(options.source);
   const fs::path file = options.file ? fs::path(*options.file) : recording.folder / "view.html";
   check_page_file(file, options.force);
+  const std::string note = note_of_another_run(recording);
+  if (!options.quiet && !note.empty()) print_note(note);
   ViewSettings settings;
   if (options.max_size) settings.most_bytes = *options.max_size;
   if (!options.quiet) settings.warn = print_warning;

@@ -1,7 +1,6 @@
 #include "app/view/live_run.hpp"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <charconv>
 #include <chrono>
@@ -29,12 +28,6 @@ std::optional<std::size_t> take_number(std::string_view& text) {
   if (error != std::errc()) return {};
   text.remove_prefix(static_cast<std::size_t>(end - text.data()));
   return number;
-}
-
-std::optional<FileIdentity> identity_of(const fs::path& file) {
-  struct stat status {};
-  if (file.empty() || stat(file.c_str(), &status) != 0) return {};
-  return FileIdentity{status.st_dev, status.st_ino};
 }
 
 HttpAnswer found(const char* type, std::string body) {

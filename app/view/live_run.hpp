@@ -1,8 +1,6 @@
 // A run that goes on, as the page that follows it asks for it.
 #pragma once
 
-#include <sys/types.h>
-
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -15,13 +13,6 @@
 #include "run/recordings/run_view.hpp"
 
 namespace carom {
-
-// What tells a file from all others, also when it has moved within its file system. While it is open no other has it.
-struct FileIdentity {
-  dev_t device = 0;
-  ino_t number = 0;
-  bool operator==(const FileIdentity&) const = default;
-};
 
 class LiveRun {
  public:

@@ -18,8 +18,10 @@ from ._disks import Frame
 class Trajectory:
     """The frames of trajectory.xyz or trajectory.h5, read one by one as they are asked for.
 
-    path: the file, or the folder of a run, also of one that goes on: each use sees the frames that are there by then. len()
-    and [k] pass over the frames up to there; [1:3] is a list of frames. Raises SceneError where there is none, or it is damaged.
+    path: the file, or the folder of a run, also of one that goes on: each use sees the frames that are there by then. Where
+    another run takes the place of an earlier one (force=True), these are the earlier one's until it is done, and a loop that
+    has begun ends with them. len() and [k] pass over the frames up to there; [1:3] is a list of frames. Raises SceneError
+    where there is none, or it is damaged.
     """
 
     def __init__(self, path: _arguments.AnyPath):

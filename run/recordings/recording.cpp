@@ -1,6 +1,7 @@
 #include "run/recordings/recording.hpp"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -15,23 +16,45 @@ namespace carom {
 
 namespace fs = std::filesystem;
 
+std::optional<FileIdentity> identity_of(const fs::path& file) {
+  struct stat status {};
+  if (file.empty() || stat(file.c_str(), &status) != 0) return {};
+  return FileIdentity{status.st_dev, status.st_ino};
+}
+
 Recording open_recording(const std::string& name) {
   const fs::path path = name;
   check_present(name);
+  const auto found = [](const fs::path& folder, const fs::path& trajectory, bool growing) {
+    return Recording{folder, trajectory, growing, identity_of(trajectory)};
+  };
   if (!fs::is_directory(path)) {
     const fs::path parent = path.parent_path();
-    return {parent.empty() ? fs::path(".") : parent, path, parent.filename() == unfinished_name};
+    return found(parent.empty() ? fs::path(".") : parent, path, parent.filename() == unfinished_name);
   }
   const fs::path trajectory = trajectory_in(path);
-  if (!trajectory.empty()) return {path, trajectory, path.filename() == unfinished_name};
+  if (!trajectory.empty()) return found(path, trajectory, path.filename() == unfinished_name);
   const fs::path unfinished = trajectory_in(path / unfinished_name);
-  if (!unfinished.empty()) return {path, unfinished, true};
+  if (!unfinished.empty()) return found(path, unfinished, true);
   fail_input(name, "holds no trajectory.xyz or trajectory.h5",
              "expected the folder of a run with [output] trajectory = \"xyz\" or \"h5md\"");
 }
 
 std::unique_ptr<TrajectoryReader> open_frames(const Recording& recording) {
-  return open_trajectory(recording.trajectory.string(), recording.growing);
+  std::unique_ptr<TrajectoryReader> reader = open_trajectory(recording.trajectory.string(), recording.growing);
+  if (recording.file && identity_of(recording.trajectory) != recording.file) fail_replaced(recording);
+  return reader;
+}
+
+void fail_replaced(const Recording& recording) {
+  fail_input(recording.trajectory.string(), "was replaced while it was read",
+             "expected it to stay so long; the same command reads what is there now");
+}
+
+std::string note_of_another_run(const Recording& recording) {
+  if (recording.growing || !is_being_written(recording.folder)) return "";
+  return fmt::format("{} is of the run before the one that is going on in {}", recording.trajectory.string(),
+                     (recording.folder / unfinished_name).string());
 }
 
 namespace {

@@ -43,6 +43,23 @@ TEST(HttpRequest, IsReadAsTheStandardSays) {
   EXPECT_EQ(read_request("GET / HTTP/1.1\r\nHost: a\r\nno colon\r\n\r\n", request), 400);
 }
 
+// A page or a movie reads a trajectory more than once: not one and then another.
+TEST(Recording, IsReadAsItWasFound) {
+  const test::TestFolder folder("recording");
+  const std::string frame =
+      "1\nLattice=\"20 0 0 0 12 0 0 0 1\" pbc=\"F F F\" "
+      "Properties=species:S:1:pos:R:3:velo:R:3:radius:R:1:mass:R:1:id:I:1 Time=0.5\nX 6 9 0 -2 0.5 0 1 1 0\n";
+  const std::string name = folder.write("trajectory.xyz", frame);
+  const Recording found = open_recording(name);
+  TrajectoryFrame read;
+  EXPECT_TRUE(open_frames(found)->read(read));
+  std::ofstream(name, std::ios::app) << frame;  // it may grow
+  EXPECT_TRUE(open_frames(found)->read(read));
+  std::filesystem::rename(folder.write("another.xyz", frame), name);
+  EXPECT_THAT([&] { open_frames(found); }, testing::ThrowsMessage<InputError>(
+                                               testing::StartsWith(name + ": was replaced while it was read; expec")));
+}
+
 // A socket of a browser, or of something else.
 class Caller {
  public:

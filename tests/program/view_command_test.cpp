@@ -255,6 +255,23 @@ TEST_F(View, CheckSaysWhatItCosts) {
   EXPECT_NEAR(said["files_bytes"].value("view.html", 0.0), size, 0.3 * size);
 }
 
+// The results of an earlier run stay until the one that takes their place is done.
+TEST_F(View, TellsOfARunInThePlaceOfAnEarlierOne) {
+  run("-o out --t-end 0.2");
+  const pid_t next = start({"run", "gas.toml", "--quiet", "--force", "-o", "out", "--t-end", "1e9"});
+  while (!fs::exists(at("out/carom-unfinished/trajectory.xyz"))) usleep(1000);
+  const std::string note =
+      "carom: out/trajectory.xyz is of the run before the one that is going on in out/carom-unfinished\n";
+  const Outcome page = carom("view out -o page.html"), picture = carom("render out -o last.svg");
+  EXPECT_THAT(page.err, HasSubstr(note));
+  EXPECT_THAT(page.err, HasSubstr("5 frames"));
+  EXPECT_EQ(picture.err, note);
+  EXPECT_EQ(carom("render out -o last.svg --force --quiet").err, "");
+  kill(next, SIGKILL);
+  wait_for(next);
+  EXPECT_EQ(carom("render out -o last.svg --force").err, "");
+}
+
 TEST_F(View, ARunCanEndWithIt) {
   fs::create_directories(at("bin"));
   write("bin/xdg-open", "#!/bin/sh\necho \"$1\" >opened\n");
