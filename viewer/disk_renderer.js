@@ -236,7 +236,7 @@ export class DiskRenderer {
     const y0 = py ? canvas.height - Math.round(bottom * look.density) : 0;
     const y1 = py ? canvas.height - Math.round(top * look.density) : canvas.height;
     gl.enable(gl.SCISSOR_TEST);
-    gl.scissor(x0, y0, Math.max(0, x1 - x0), Math.max(0, y1 - y0));
+    gl.scissor(x0, y0, Math.max(1, x1 - x0), Math.max(1, y1 - y0)); // of a box however long, a pixel across
   }
 
   // A point is dropped where its centre is out of view, so the view is wider by a point; see use().
