@@ -126,10 +126,26 @@ class DiskBuffers {
 }
 
 export class DiskRenderer {
-  constructor(canvas, axes, box) {
+  // tell: of the graphics card, a sentence for the page, empty when it is back: what was on it is to be brought again.
+  constructor(canvas, axes, box, tell) {
     const gl = canvas.getContext("webgl2", { antialias: false, premultipliedAlpha: true, alpha: false });
     if (!gl) throw new Error("This browser has no WebGL2, which draws the disks.");
     Object.assign(this, { gl, canvas, axes, box });
+    this.begin();
+    // It is reset, or the browser gives it to other pages.
+    canvas.addEventListener("webglcontextlost", (event) => {
+      event.preventDefault(); // it comes back then, as soon as it can
+      tell("This page has lost the graphics card. Load it again if the disks do not come back.");
+    });
+    canvas.addEventListener("webglcontextrestored", () => {
+      this.begin();
+      this.setPalette(this.palette);
+      tell("");
+    });
+  }
+
+  begin() {
+    const { gl } = this;
     this.disks = program(gl, diskShader, diskPaint(false));
     this.points = program(gl, pointShader, diskPaint(true));
     this.largestPoint = Math.min(64, gl.getParameter(gl.ALIASED_POINT_SIZE_RANGE)[1]);
@@ -145,6 +161,7 @@ export class DiskRenderer {
 
   setPalette(bytes) {
     const { gl } = this;
+    this.palette = bytes;
     gl.bindTexture(gl.TEXTURE_2D, this.colours);
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, 256, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
     for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER])

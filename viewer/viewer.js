@@ -21,7 +21,10 @@ export class Viewer {
     this.playback = new Playback(store.times, () => element("smooth").checked);
     this.camera = new Camera(this.head.box);
     this.canvas = element("disks");
-    this.renderer = new DiskRenderer(this.canvas, this.head.axes, this.head.box);
+    this.renderer = new DiskRenderer(this.canvas, this.head.axes, this.head.box, (sentence) => {
+      this.say(sentence);
+      this.refresh();
+    });
     this.plots = new Plots(this.head, (time) => this.jumpToTime(time));
     this.colour = this.head.colour === "group" && !this.head.grouped ? "speed" : this.head.colour;
     this.range = null; // once a block is unpacked
@@ -119,7 +122,8 @@ export class Viewer {
   }
 
   refresh(number) {
-    if (this.picked) this.picked.path.add(number, this.store.unpacked.get(number) ?? { frames: [] });
+    if (this.picked && number !== undefined)
+      this.picked.path.add(number, this.store.unpacked.get(number) ?? { frames: [] });
     this.drawn = -1;
     this.dirty = true;
   }

@@ -35,6 +35,23 @@ test("pixels are coloured where disks are, on both edges of a periodic side, and
   await page.close();
 });
 
+test("the page draws again when it gets the graphics card back that it has lost, and says so until then", async () => {
+  const { page } = await shop.show(shop.view("rest").file);
+  await page.selectOption("#colour", "fixed");
+  await drawn(page, 0);
+  await page.evaluate(() => {
+    window.card = window.carom.renderer.gl.getExtension("WEBGL_lose_context");
+    window.card.loseContext();
+  });
+  await page.waitForFunction(() => !document.getElementById("message").hidden);
+  assert.match(await page.textContent("#message"), /^This page has lost the graphics card\./);
+  await page.evaluate(() => window.card.restoreContext());
+  await page.waitForFunction(() => document.getElementById("message").hidden);
+  await drawn(page, 0);
+  assert.deepEqual(await coloursAt(page, [[5, 3]]), [[0, 0x72, 0xb2]]);
+  await page.close();
+});
+
 test("an inner sink along a side is an opening in it", async () => {
   const walls = restScene().replace('left = "periodic"\nright = "periodic"\n', "").replace("[0.2, 6]", "[2, 6]");
   shop.run("pocket", walls.replace("[run]", '[[walls]]\nfrom = [8, 0]\nto = [12, 0]\nkind = "sink"\n[run]'));
