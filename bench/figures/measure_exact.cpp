@@ -25,8 +25,8 @@ constexpr std::size_t million = 1'000'000;
 // shared out.
 constexpr double turn_work = 1e6;
 constexpr double windows_at_least = 2.0;
-// A disk, by which a turn has its number of windows. At packing fraction 0.5 they hold 1.24; the hashes of earlier
-// results are those of so many windows.
+// A disk, by which a turn has its number of windows. At packing fraction 0.5 they hold 2, as they aim at
+// (core/step/window_length.cpp); the hashes of earlier results are those of so many windows.
 constexpr double collisions_a_window = 0.9;
 
 int windows_a_turn(std::size_t disks) {

@@ -24,7 +24,8 @@ using Clock = std::chrono::steady_clock;
 // Collisions a row, a second of work or two.
 constexpr double row_work = 1e6;
 // By this rows have their number of windows, and the yardstick what it does in the place of one. A window holds
-// more, 1.24 collisions a disk at packing fraction 0.5; the hashes of earlier rows are those of so many windows.
+// more, two collisions a disk at packing fraction 0.5 as it aims at (core/step/window_length.cpp); the hashes of
+// earlier rows are those of so many windows.
 double collisions_a_window(std::size_t disks) {
   return std::max(32.0, 0.7 * static_cast<double>(disks));
 }
