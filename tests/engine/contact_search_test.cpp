@@ -14,6 +14,8 @@ namespace carom {
 namespace {
 
 using test::box_of;
+using test::Periodic;
+using test::periodic_along;
 
 struct Searched {
   std::vector<Pair> pairs;  // as ids
@@ -103,7 +105,7 @@ TEST_P(ContactSearch, FindsAllPairsOfScatteredDisks) {
     for (const auto& [width, height] : {std::pair{50.0, 40.0}, {300.0, 9.0}, {9.0, 300.0}}) {
       SCOPED_TRACE(ratio);
       SCOPED_TRACE(width);
-      const Domain box = box_of(width, height, px, py);
+      const Domain box = box_of(width, height, periodic_along(px, py));
       const double large = ratio > 10.0 ? 2.0 : 0.6;
       expect_all_pairs(scattered(box, 700, large / ratio, large, 5), box, 0.0, found);
       expect_all_pairs(scattered(box, 700, large / ratio, large, 6), box, 0.19, found);
@@ -115,7 +117,7 @@ TEST_P(ContactSearch, FindsAllPairsOfScatteredDisks) {
 // Few disks that reach over one, several and very many cells of small ones, and small ones that find a crowd of larger
 // disks in a few cells.
 TEST_P(ContactSearch, FindsPairsOfFewLargeDisksAmongManySmallOnes) {
-  const Domain box = box_of(24.0, 20.0, (GetParam() & 1) != 0, (GetParam() & 2) != 0);
+  const Domain box = box_of(24.0, 20.0, periodic_along((GetParam() & 1) != 0, (GetParam() & 2) != 0));
   const Domain corner = box_of(8.0, 6.0);
   Disks d = scattered(box, 6000, 0.05, 0.07, 21);
   for (const Disks& more : {scattered(corner, 150, 0.14, 0.22, 22), scattered(box, 5, 3.0, 6.0, 23)}) {
@@ -129,7 +131,7 @@ TEST_P(ContactSearch, FindsPairsOfFewLargeDisksAmongManySmallOnes) {
 TEST_P(ContactSearch, FindsPairsOnEdgesAndCorners) {
   const bool px = (GetParam() & 1) != 0;
   const bool py = (GetParam() & 2) != 0;
-  const Domain box = box_of(24.0, 12.0, px, py);
+  const Domain box = box_of(24.0, 12.0, periodic_along(px, py));
   Disks d;
   DiskId id = 0;
   // Touching disks whose centres lie exactly on cell edges, corners and the box's edge.
@@ -141,7 +143,7 @@ TEST_P(ContactSearch, FindsPairsOnEdgesAndCorners) {
 
 // The search's positions are rounded to a few thousandths of a diameter.
 TEST_P(ContactSearch, FindsPairsThatOnlyJustTouch) {
-  const Domain box = box_of(400.0, 320.0, (GetParam() & 1) != 0, (GetParam() & 2) != 0);
+  const Domain box = box_of(400.0, 320.0, periodic_along((GetParam() & 1) != 0, (GetParam() & 2) != 0));
   for (const double ratio : {1.0, 1.5, 0.3, 0.02}) {  // the last two: of several size classes
     Disks d;
     for (DiskId id = 0; id < 8000; id += 2) {
@@ -163,9 +165,9 @@ TEST_P(ContactSearch, FindsPairsThatOnlyJustTouch) {
 TEST_P(ContactSearch, FindsPairsInOneCellAndAmongEmptyOnes) {
   const bool px = (GetParam() & 1) != 0;
   const bool py = (GetParam() & 2) != 0;
-  const Domain one_cell = box_of(4.5, 4.5, px, py);
+  const Domain one_cell = box_of(4.5, 4.5, periodic_along(px, py));
   expect_all_pairs(scattered(one_cell, 12, 1.0, 1.0, 7), one_cell, 0.1);
-  const Domain empty = box_of(1e4, 1e4, px, py);
+  const Domain empty = box_of(1e4, 1e4, periodic_along(px, py));
   Disks d;
   append(d, {0.1, 0.1, 0, 0, 1.0, 1.0, 0});
   append(d, {9999.5, 9999.5, 0, 0, 1.0, 1.0, 1});
@@ -178,7 +180,7 @@ INSTANTIATE_TEST_SUITE_P(Sides, ContactSearch, ::testing::Values(0, 1, 2, 3));
 
 // Disks that have left their cells further than the margin are strays: they must be noticed, and nothing may be missed.
 TEST(ContactSearchStrays, AreNoticedAndSearchedFor) {
-  const Domain box = box_of(50.0, 40.0, true, true);
+  const Domain box = box_of(50.0, 40.0, Periodic::both);
   const Disks d = scattered(box, 500, 0.5, 0.5, 8);
   FoundContacts found;
   EXPECT_EQ(search(d, box, 0.0, 1, 1, found).strays, 0U);
@@ -188,7 +190,7 @@ TEST(ContactSearchStrays, AreNoticedAndSearchedFor) {
 
 // The counting sort: keys ascend, every disk is still there, disks of a cell keep their order, threads do not matter.
 TEST(CountingSort, IsStableAndIndependentOfThreads) {
-  const Domain box = box_of(60.0, 45.0, false, false);
+  const Domain box = box_of(60.0, 45.0);
   const Disks start = scattered(box, 5000, 0.1, 0.9, 9);
   const CellGrid grid = grid_for(start, box);
   Disks expected;

@@ -16,6 +16,8 @@ namespace carom {
 namespace {
 
 using test::box_of;
+using test::Periodic;
+using test::periodic_along;
 
 // The same pairs in the same order, each once, smaller id first. Returns how many.
 std::size_t expect_same(const Disks& disks, const Domain& box) {
@@ -55,7 +57,8 @@ TEST(PairSearch, AgreesWithAllPairsInBoxesOfAnyKind) {
   test::Draws draws(1);
   for (int sides = 0; sides < 4; ++sides) {
     for (int k = 0; k < 12; ++k) {
-      const Domain box = box_of(draws.decades(2.0, 200.0), draws.decades(2.0, 200.0), sides % 2 == 1, sides / 2 == 1);
+      const Domain box =
+          box_of(draws.decades(2.0, 200.0), draws.decades(2.0, 200.0), periodic_along(sides % 2 == 1, sides / 2 == 1));
       expect_same(anywhere(draws, box, 150, 0.5, 0.5000001), box);
       expect_same(anywhere(draws, box, 150, 0.1, 2.0, 0.7), box);
     }
@@ -66,7 +69,7 @@ TEST(PairSearch, AgreesWithAllPairsInBoxesOfAnyKind) {
 TEST(PairSearch, RadiiOfAllSizes) {
   test::Draws draws(2);
   for (int k = 0; k < 8; ++k) {
-    const Domain box = box_of(100.0, 80.0, k % 2 == 1, k / 2 % 2 == 1);
+    const Domain box = box_of(100.0, 80.0, periodic_along(k % 2 == 1, k / 2 % 2 == 1));
     EXPECT_GT(expect_same(anywhere(draws, box, 300, 0.02, 20.0), box), 0U);
   }
 }
@@ -74,7 +77,7 @@ TEST(PairSearch, RadiiOfAllSizes) {
 // In a sheared box, across whose top and bottom disks of any column may meet; images are nearest below half the height.
 TEST(PairSearch, ShearedImages) {
   test::Draws draws(6);
-  Domain box = box_of(60.0, 50.0, true, true);
+  Domain box = box_of(60.0, 50.0, Periodic::both);
   box.shear.rate = 1.0;
   for (int k = 0; k < 8; ++k) {
     box.shear.offset = draws.in(-0.5 * box.width, 0.5 * box.width);
@@ -86,7 +89,7 @@ TEST(PairSearch, ShearedImages) {
 // F13: centres and edges exactly on cell lines, corners of the box included.
 TEST(PairSearch, DisksOnCellEdgesAndCorners) {
   for (int sides = 0; sides < 4; ++sides) {
-    const Domain box = box_of(16.0, 16.0, sides % 2 == 1, sides / 2 == 1);
+    const Domain box = box_of(16.0, 16.0, periodic_along(sides % 2 == 1, sides / 2 == 1));
     std::vector<Disk> list;
     for (int ix = 0; ix <= 16; ++ix) {
       for (int iy = 0; iy <= 16; ++iy) {
@@ -115,13 +118,13 @@ TEST(PairSearch, CentresOutsideTheWalls) {
 // F10: across each periodic side and across the corner.
 TEST(PairSearch, AcrossPeriodicSides) {
   const std::vector<Disk> row{{0.5, 5.0, 0, 0, 1.0, 1.0}, {9.0, 5.0, 0, 0, 1.0, 1.0}};
-  EXPECT_EQ(expect_same(test::disks_of(row), box_of(10.0, 10.0, true, false)), 1U);
-  EXPECT_EQ(expect_same(test::disks_of(row), box_of(10.0, 10.0, false, true)), 0U);
+  EXPECT_EQ(expect_same(test::disks_of(row), box_of(10.0, 10.0, Periodic::x)), 1U);
+  EXPECT_EQ(expect_same(test::disks_of(row), box_of(10.0, 10.0, Periodic::y)), 0U);
   const std::vector<Disk> column{{5.0, 0.5, 0, 0, 1.0, 1.0}, {5.0, 9.0, 0, 0, 1.0, 1.0}};
-  EXPECT_EQ(expect_same(test::disks_of(column), box_of(10.0, 10.0, false, true)), 1U);
+  EXPECT_EQ(expect_same(test::disks_of(column), box_of(10.0, 10.0, Periodic::y)), 1U);
   const std::vector<Disk> corner{{0.5, 0.5, 0, 0, 1.0, 1.0}, {9.4, 9.4, 0, 0, 1.0, 1.0}};
-  EXPECT_EQ(expect_same(test::disks_of(corner), box_of(10.0, 10.0, true, true)), 1U);
-  EXPECT_EQ(expect_same(test::disks_of(corner), box_of(10.0, 10.0, true, false)), 0U);
+  EXPECT_EQ(expect_same(test::disks_of(corner), box_of(10.0, 10.0, Periodic::both)), 1U);
+  EXPECT_EQ(expect_same(test::disks_of(corner), box_of(10.0, 10.0, Periodic::x)), 0U);
 }
 
 // Boxes of one, two or three cells a side: a neighbour round the corner is then the same cell.
@@ -129,16 +132,16 @@ TEST(PairSearch, FewCells) {
   test::Draws draws(4);
   for (double side : {2.01, 3.9, 4.1, 5.9, 6.1, 8.1}) {
     for (int sides = 0; sides < 4; ++sides) {
-      const Domain box = box_of(side, 9.0 - 0.5 * side, sides % 2 == 1, sides / 2 == 1);
+      const Domain box = box_of(side, 9.0 - 0.5 * side, periodic_along(sides % 2 == 1, sides / 2 == 1));
       expect_same(anywhere(draws, box, 40, 0.3, 1.0, 0.2), box);
-      const Domain narrow = box_of(500.0, 2.0 + 0.01 * side, sides % 2 == 1, sides / 2 == 1);
+      const Domain narrow = box_of(500.0, 2.0 + 0.01 * side, periodic_along(sides % 2 == 1, sides / 2 == 1));
       expect_same(anywhere(draws, narrow, 300, 0.9, 1.0), narrow);
     }
   }
 }
 
 TEST(PairSearch, NoDisksAndOneDisk) {
-  const Domain box = box_of(10.0, 10.0, true, true);
+  const Domain box = box_of(10.0, 10.0, Periodic::both);
   EXPECT_EQ(expect_same({}, box), 0U);
   EXPECT_EQ(expect_same(test::disks_of({{1.0, 1.0, 0, 0, 5.0, 1.0}}), box), 0U);
 }
@@ -146,7 +149,7 @@ TEST(PairSearch, NoDisksAndOneDisk) {
 // The order of the answer is by id, whatever the order of storage.
 TEST(PairSearch, StorageOrderDoesNotMatter) {
   test::Draws draws(5);
-  const Domain box = box_of(30.0, 30.0, true, false);
+  const Domain box = box_of(30.0, 30.0, Periodic::x);
   const Disks disks = anywhere(draws, box, 200, 0.5, 2.0);
   Disks mixed;
   std::vector<std::size_t> order(disks.size());

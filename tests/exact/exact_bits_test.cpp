@@ -192,7 +192,7 @@ TEST(ExactBits, OfAShearWhoseListsAreStrainedAgainAndAgain) {
 
 // In the last window a disk comes to a periodic side to the last bit: it is at 0, not at the box's width.
 TEST(ExactBits, OfADiskOnAPeriodicSideAtTheEnd) {
-  const Domain box = test::box_of(16.0, 8.0, true, true);
+  const Domain box = test::box_of(16.0, 8.0, test::Periodic::both);
   std::vector<Disk> list{{12.0, 4.0, 2.0, 0.0, 0.25, 1.0}, {4.0, 6.0, 0.0, 1.0, 0.25, 1.0}};
   for (const std::size_t more : {0U, 48U}) {  // with more of them there are lists
     for (std::size_t k = 0; k < more; ++k)

@@ -85,7 +85,8 @@ Source cutting_source(const Pairs& pairs, double rate) {
 // then.
 Scene cut_scene(const Pairs& pairs, std::uint32_t seed) {
   const bool periodic = seed % 2 == 0;
-  Scene scene = plain_scene(test::box_of(pairs.side(), pairs.side(), periodic, periodic), 1e9);
+  Scene scene = plain_scene(
+      test::box_of(pairs.side(), pairs.side(), periodic ? test::Periodic::both : test::Periodic::none), 1e9);
   scene.sources.push_back(cutting_source(pairs, seed % 3 == 0 ? 200.0 : 3.0));
   return scene;
 }
@@ -149,7 +150,7 @@ TEST_P(Grazing, DisksThatPassAtTheirContactDistance) {
   const Count collisions = over_seeds(8, [&c](std::uint32_t seed, test::Draws& draws, const Pairs& pairs) {
     const double side = pairs.side() * c.unit;
     const bool periodic = c.shear_rate != 0.0 || seed % 2 == 0;
-    Scene scene = plain_scene(test::box_of(side, side, periodic, periodic), 1e9);
+    Scene scene = plain_scene(test::box_of(side, side, periodic ? test::Periodic::both : test::Periodic::none), 1e9);
     scene.physics.gravity = c.gravity;
     if (c.shear_rate != 0.0) scene.box.shear = {c.shear_rate, c.shear_rate * side, 0.0};
     return expect_reference(scene, passing(draws, pairs, c.unequal_radii, c.unit), 12);

@@ -17,7 +17,7 @@ namespace {
 
 // Periodic along x, between walls along y.
 ListedBox half_periodic() {
-  return ListedBox(test::box_of(20.0, 10.0, true, false));
+  return ListedBox(test::box_of(20.0, 10.0, test::Periodic::x));
 }
 
 TEST(ListedBox, RoundsPlacesDownByLessThanAUnit) {
@@ -82,7 +82,7 @@ State pairs_in(const Scene& scene, int pairs) {
 // A disk that is out of its skin as soon as it is listed would be listed again for ever.
 TEST(ListedBox, HasRoomForASkinUnlessItIsFarLongerThanItsPeriod) {
   EXPECT_TRUE(can_list_in(test::box_of(1.0, 1e10)));
-  EXPECT_TRUE(can_list_in(test::box_of(1.0, 1e10, false, true)));
+  EXPECT_TRUE(can_list_in(test::box_of(1.0, 1e10, test::Periodic::y)));
   for (const bool periodic_y : {false, true}) {
     for (const double height : {1e6, 1e8, 1e11}) {
       const Scene scene = long_scene(height, periodic_y);

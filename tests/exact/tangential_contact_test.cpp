@@ -79,7 +79,7 @@ TEST_P(Tangential, PairsPassEachOther) {
   for (std::uint32_t seed = 1; seed <= seeds && !HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
     test::Draws draws(seed);
-    Scene scene = plain_scene(test::box_of(120.0, 120.0, true, true), 1e9);
+    Scene scene = plain_scene(test::box_of(120.0, 120.0, test::Periodic::both), 1e9);
     scene.physics.gravity = c.gravity;
     if (c.shear_rate != 0.0) scene.box.shear = {c.shear_rate, c.shear_rate * 120.0, 0.0};
     const State start = pairs_that_touch(draws, c);

@@ -96,7 +96,7 @@ TEST(MostPaths, IsAShareOfEachDisk) {
 
 // Relative to the flow, but for the largest speed, by which the exact method bounds where disks may come.
 TEST(SpeedTally, IsOfMotionRelativeToTheFlow) {
-  Domain box = test::box_of(40.0, 10.0, true, true);
+  Domain box = test::box_of(40.0, 10.0, test::Periodic::both);
   Disks d = test::disks_of({{5.0, 7.0, 3.0, 4.0, 0.5, 1.0}, {9.0, 5.0, 0.0, 1.0, 0.5, 1.0}});
   for (const bool flows : {false, true}) {
     if (flows) box.shear.rate = 1.5;  // 3 at y = 7, 0 at y = 5

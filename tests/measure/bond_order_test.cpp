@@ -36,8 +36,8 @@ std::complex<double> order_among_all(const Disks& d, std::size_t i, const Domain
 TEST(BondOrder, InBoxesOfFewCellsIsThatOfAllPairs) {
   test::Draws draws(31);
   for (int k = 0; k < 4000; ++k) {
-    const Domain box = test::box_of(1.0, draws.in(1.0, 7.0), k % 2 == 0, k % 4 < 2);
-    const Domain turned = test::box_of(box.height, 1.0, k % 4 < 2, k % 2 == 0);
+    const Domain box = test::box_of(1.0, draws.in(1.0, 7.0), test::periodic_along(k % 2 == 0, k % 4 < 2));
+    const Domain turned = test::box_of(box.height, 1.0, test::periodic_along(k % 4 < 2, k % 2 == 0));
     Disks d, of_turned;
     const auto n = static_cast<DiskId>(draws.in(7.0, 30.0));
     for (DiskId id = 0; id < n; ++id) {
@@ -61,7 +61,7 @@ TEST(BondOrder, InBoxesOfFewCellsIsThatOfAllPairs) {
 TEST(BondOrder, OfClustersFarApartIsThatOfAllPairs) {
   test::Draws draws(32);
   for (int k = 0; k < 40; ++k) {
-    const Domain box = test::box_of(1e4, 2e4, k % 2 == 0, k % 4 < 2);
+    const Domain box = test::box_of(1e4, 2e4, test::periodic_along(k % 2 == 0, k % 4 < 2));
     Disks d;
     for (DiskId id = 0; id < 300; ++id) {
       const double spread = id < 290 ? 1.0 : 1e4;
@@ -79,7 +79,7 @@ TEST(BondOrder, OfClustersFarApartIsThatOfAllPairs) {
 
 // Seven disks and no more: each has all others as neighbours; of six, none are known.
 TEST(BondOrder, OfTheFirstDisksIsUnknownWithoutSixOthers) {
-  const Domain box = test::box_of(8.0, 8.0, true, true);
+  const Domain box = test::box_of(8.0, 8.0, test::Periodic::both);
   Disks d;
   for (DiskId id = 0; id < 6; ++id) append(d, {1.0 + id, 4.0, 0, 0, 0.1, 1.0, id});
   EXPECT_FALSE(bond_orders_of_first(d, 2, box, 10.0));
@@ -91,7 +91,7 @@ TEST(BondOrder, OfTheFirstDisksIsUnknownWithoutSixOthers) {
 // On a square lattice, whose distances are whole numbers, four of the next disks are equally far and two of them count.
 TEST(BondOrder, OfEquallyFarDisksTheLowestIdsCount) {
   constexpr int side = 12;
-  const Domain box = test::box_of(side, side, true, true);
+  const Domain box = test::box_of(side, side, test::Periodic::both);
   std::vector<DiskId> ids(side * side);
   std::iota(ids.begin(), ids.end(), DiskId{0});
   std::mt19937 random(5);

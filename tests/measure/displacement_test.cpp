@@ -113,7 +113,7 @@ TEST(Displacement, AStepOfAPeriodIsADoubt) {
 
 // And a move that is seen to be longer than a quarter of the period, wherever it goes.
 TEST(Displacement, ALookThatComesTooLateIsADoubt) {
-  const Domain box = test::box_of(10.0, 10.0, true, true);
+  const Domain box = test::box_of(10.0, 10.0, test::Periodic::both);
   for (const double way : {2.0, 4.0, -2.0, -4.0}) {
     DisplacementTally tally;
     begin_displacement(tally, test::disks_of({{5.0, 5.0}}), box, 0.0);
@@ -124,7 +124,7 @@ TEST(Displacement, ALookThatComesTooLateIsADoubt) {
 
 // A quarter is none, even where the rounding of both ends makes it five parts.
 TEST(Displacement, AQuarterOfThePeriodIsNoDoubt) {
-  const Domain box = test::box_of(10.0, 10.0, true, true);
+  const Domain box = test::box_of(10.0, 10.0, test::Periodic::both);
   const double before = std::nextafter(0.625, 0.0);
   ASSERT_EQ(before + 2.5, 3.125) << "ends of parts";
   DisplacementTally tally;
@@ -135,7 +135,7 @@ TEST(Displacement, AQuarterOfThePeriodIsNoDoubt) {
 
 // Rounds from where a disk is met for the first time, up and down; one comes later.
 TEST(Displacement, RoundsAreThoseSinceTheFirstLook) {
-  const Domain box = test::box_of(10.0, 10.0, true, true);
+  const Domain box = test::box_of(10.0, 10.0, test::Periodic::both);
   DisplacementTally tally;
   for (int k = 0; k <= 40; ++k) {
     const double x = 9.0 + 2.0 * k, y = 1.3 - 1.5 * k, later = 0.5 - (k - 5);
@@ -284,7 +284,7 @@ TEST(Displacement, ManyDisksAreAskedWhereSpeedsComeFromElsewhere) {
 // Looks and speeds are dated by the disks that are looked at, wherever a run stands when it begins with them: from
 // these times on it is counted how far disks may have come.
 TEST(Displacement, LooksAreOfTheTimesOfTheDisks) {
-  const Domain box = test::box_of(6.0, 4.0, true, true);
+  const Domain box = test::box_of(6.0, 4.0, test::Periodic::both);
   const Disks disks = test::disks_of(rows(3, 2.0));
   DisplacementTally tally, rounds;
   begin_displacement(tally, disks, box, 50.0);

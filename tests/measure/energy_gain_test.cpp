@@ -88,7 +88,7 @@ TEST(EnergyGain, IsUnknownWhereDisksFallForEver) {
   for (const bool along_x : {true, false}) {
     for (const bool periodic_x : {true, false}) {
       Scene scene = closed_box(Method::exact);
-      scene.box = test::box_of(10.0, 10.0, periodic_x, !periodic_x);
+      scene.box = test::box_of(10.0, 10.0, periodic_x ? test::Periodic::x : test::Periodic::y);
       scene.physics.gravity = along_x ? Gravity(0.5, 0.0) : Gravity(0.0, 0.5);
       EXPECT_EQ(warns(scene, state, 11.0), along_x != periodic_x);
     }

@@ -40,7 +40,7 @@ Disks ideal_gas(std::size_t n, const Domain& box, std::uint64_t seed) {
 // A perfect triangular lattice of spacing 1, columns x rows, with its box.
 Disks triangles(int columns, int rows, Domain& box) {
   const double h = std::sqrt(0.75);
-  box = test::box_of(columns, rows * h, true, true);
+  box = test::box_of(columns, rows * h, test::Periodic::both);
   Disks d;
   for (int k = 0; k < columns * rows; ++k) {
     const int row = k / columns;
@@ -51,7 +51,7 @@ Disks triangles(int columns, int rows, Domain& box) {
 
 // |rho_k|^2 / N of an ideal gas is exponential with mean 1: the mean of `waves` has the error 1 / sqrt(waves).
 TEST(StructureFactor, OfAnIdealGasIsOne) {
-  const Domain box = test::box_of(30.0, 20.0, true, true);
+  const Domain box = test::box_of(30.0, 20.0, test::Periodic::both);
   StructureFactor s{std::vector<double>(100, 0.0), std::vector<double>(100, 0.0), 0};
   for (std::uint64_t seed = 1; seed <= 40; ++seed) add_structure(s, ideal_gas(500, box, seed), box);
   EXPECT_EQ(s.samples, 40U);
@@ -75,7 +75,7 @@ TEST(StructureFactor, OfALatticeHasBraggPeaks) {
 }
 
 TEST(StructureFactor, ASideThatIsNoPeriodAndNoDisksGiveNothing) {
-  const Domain box = test::box_of(30.0, 20.0, true, false);
+  const Domain box = test::box_of(30.0, 20.0, test::Periodic::x);
   StructureFactor s{std::vector<double>(5, 0.0), {}, 0};
   add_structure(s, Disks{}, box);
   EXPECT_EQ(s.samples, 0U);
@@ -132,7 +132,7 @@ TEST(BondCorrelation, OfAHexagonalLatticeIsOne) {
 
 // Against all pairs, with walls, whose neighbourhood is left out; and in any order of storage.
 TEST(BondCorrelation, OfAGasIsThatOfAllPairs) {
-  const Domain box = test::box_of(30.0, 20.0, true, false);
+  const Domain box = test::box_of(30.0, 20.0, test::Periodic::x);
   const Disks d = ideal_gas(300, box, 3);
   const std::vector<Vec2> psi = bond_orders(d, box);
   constexpr std::size_t n = 12;
@@ -158,7 +158,7 @@ TEST(BondCorrelation, OfAGasIsThatOfAllPairs) {
 
 // Enough disks for several blocks of each.
 TEST(BondCorrelation, HasTheSameBitsOnAnyThreads) {
-  const Domain box = test::box_of(130.0, 90.0, true, false);
+  const Domain box = test::box_of(130.0, 90.0, test::Periodic::x);
   const Disks d = ideal_gas(10'000, box, 5);
   const DistanceBins bins{2.0, 20, 2.1};
   const std::vector<Vec2> psi = bond_orders(d, box);
@@ -214,7 +214,7 @@ TEST(BondMemory, FallsByTheAngleOfATurn) {
 // places. The sum of N products of independent psi6 scatters by sqrt(N / 2) <|psi6|^2>; neighbours share some of it.
 TEST(BondMemory, OfAnIdealGasIsForgotten) {
   constexpr std::size_t n = 20'000;
-  const Domain box = test::box_of(200.0, 100.0, true, true);
+  const Domain box = test::box_of(200.0, 100.0, test::Periodic::both);
   const Disks start = ideal_gas(n, box, 11);
   BondMemory memory;
   begin_memory(memory, start, box);
@@ -263,8 +263,8 @@ TEST(BondMemory, IsOfTheDisksThatAreStillThere) {
 // little more, and one on a line 1. The search ends in boxes of 3e5 columns and one row, too.
 TEST(BondOrder, OfAGasIsThatOfAllPairs) {
   for (const Domain& box :
-       {test::box_of(30.0, 20.0), test::box_of(30.0, 20.0, true, false), test::box_of(1e9, 2.0, true, false),
-        test::box_of(2.0, 1e9, false, true), test::box_of(1e9, 2.0)}) {
+       {test::box_of(30.0, 20.0), test::box_of(30.0, 20.0, test::Periodic::x),
+        test::box_of(1e9, 2.0, test::Periodic::x), test::box_of(2.0, 1e9, test::Periodic::y), test::box_of(1e9, 2.0)}) {
     const Disks d = ideal_gas(400, box, 7);
     double local = 0.0, x = 0.0, y = 0.0;
     for (std::size_t i = 0; i < d.size(); ++i) {
@@ -365,7 +365,7 @@ TEST(MotionProfile, SamplesOfDifferentVelocityAreHotTogether) {
 // over many samples too, and 0 where all move alike.
 TEST(MotionProfile, AColdFlowHasItsTemperature) {
   test::Draws draws(8);
-  const Domain box = test::box_of(10.0, 10.0, true, true);
+  const Domain box = test::box_of(10.0, 10.0, test::Periodic::both);
   for (const double thermal : {0.0, 1e-6}) {
     for (const double flow : {0.0, 100.0}) {
       MotionProfile profile = empty_profile(1);

@@ -93,7 +93,7 @@ TEST(PairDistances, CountsOfVeryFewDisksAreThoseOfAllPairs) {
 }
 
 TEST(PairDistances, TwoDisksOfOneCellMeetRoundThePeriodicSide) {
-  const Domain box = test::box_of(10.0, 10.0, true, false);
+  const Domain box = test::box_of(10.0, 10.0, test::Periodic::x);
   for (const double first : {0.3, 9.6}) {
     const Disks disks = test::disks_of({{first, 3.0}, {9.9 - first, 3.0}});
     EXPECT_EQ(count_pairs(disks, box, {2.0, 2, 0.0}).counts, (std::vector<Count>{2, 0}));
@@ -131,7 +131,7 @@ TEST(PairDistances, CountsInAShearedBoxAreThoseOfAllPairs) {
   test::Draws draws(16);
   for (int k = 0; k < 60; ++k) {
     const double r_max = 2.0;
-    Domain box = test::box_of(draws.in(2.0, 5.0) * r_max, draws.in(2.0, 5.0) * r_max, true, true);
+    Domain box = test::box_of(draws.in(2.0, 5.0) * r_max, draws.in(2.0, 5.0) * r_max, test::Periodic::both);
     box.shear = {1.0, box.height, draws.in(-0.5, 0.5) * box.width};
     const Disks disks = strewn(draws, box, 100);
     const DistanceBins bins{r_max, 9, 0.0};
@@ -237,7 +237,7 @@ TEST(PairDistances, GroupsHavePairsOfTheirOwn) {
 // [analysis] select: of all pairs those of the group alone, though others are near.
 TEST(PairDistances, ASelectionHasPairsOfItsDisksAlone) {
   Scene scene;
-  scene.box = test::box_of(10.0, 10.0, true, true);
+  scene.box = test::box_of(10.0, 10.0, test::Periodic::both);
   scene.analysis.wanted[0] = true;
   scene.analysis.pairs = {2.0, 2, 0.0};
   scene.analysis.group = "b";

@@ -14,7 +14,7 @@ namespace {
 
 Scene scene_of_all_quantities() {
   Scene scene;
-  scene.box = test::box_of(20.0, 10.0, true, true);
+  scene.box = test::box_of(20.0, 10.0, test::Periodic::both);
   AnalysisPlan& plan = scene.analysis;
   plan.wanted.fill(true);
   plan.pairs = plan.bonds = {4.0, 8, 0.0};

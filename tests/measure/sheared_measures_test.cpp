@@ -26,7 +26,7 @@ namespace carom {
 namespace {
 
 Domain sheared_box(double width, double height, double offset) {
-  Domain box = test::box_of(width, height, true, true);
+  Domain box = test::box_of(width, height, test::Periodic::both);
   box.shear = {0.1, 0.1 * height, offset};
   return box;
 }

@@ -14,7 +14,7 @@ namespace {
 // In a flow of 0.1 (y - 5), masses of 2 and 4: (3, 4) and (0, 2) relative to it.
 TEST(StateSums, AreOfAllPieces) {
   Scene scene;
-  scene.box = test::box_of(20.0, 10.0, true, true);
+  scene.box = test::box_of(20.0, 10.0, test::Periodic::both);
   scene.box.shear = {0.1, 1.0, 0.0};
   Disks first, second;
   append(first, {5.0, 2.5, 2.75, 4.0, 0.25, 2.0, 0});

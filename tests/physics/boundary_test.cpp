@@ -14,6 +14,7 @@ namespace carom {
 namespace {
 
 using test::box_of;
+using test::Periodic;
 
 // x - r <= 0 and so on: touching counts, and the sign says inside or beyond.
 TEST(Walls, ReachBeyondEachSide) {
@@ -130,7 +131,7 @@ TEST(WrapCoordinate, HalfOpenInterval) {
 // The images above are offset to the right: what leaves through the top comes back that far to the left, a box lower.
 // What is below 0 by less than the height can tell is at 0, and has crossed nothing.
 TEST(WrapSheared, MovesAlongByTheOffset) {
-  const Domain box = box_of(20.0, 10.0, true, true);
+  const Domain box = box_of(20.0, 10.0, Periodic::both);
   const auto expect = [&](Vec2 from, Vec2 to, double rows) {
     EXPECT_EQ(wrap_sheared(from.x, from.y, 3.0, box), rows) << from.y << " to " << to.y;
     EXPECT_EQ(from, to);
@@ -150,7 +151,7 @@ TEST(WrapSheared, MovesAlongByTheOffset) {
 
 // wall_restitution is that of sides which are no walls, too, where nothing bounces.
 TEST(Walls, DissipateWhereSidesAreWalls) {
-  Domain box = box_of(10.0, 10.0, true, true);
+  Domain box = box_of(10.0, 10.0, Periodic::both);
   box.restitutions.fill(0.5);
   EXPECT_FALSE(box.walls_dissipate());
   box.sides[static_cast<std::size_t>(Side::top)] = SideKind::sink;

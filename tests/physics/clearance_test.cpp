@@ -17,7 +17,7 @@ constexpr std::size_t cells = 4000;
 constexpr double cell = 0.5;  // 80 by 50 of them
 
 Domain box_of(bool periodic) {
-  return test::box_of(40.0, 25.0, periodic, periodic);
+  return test::box_of(40.0, 25.0, periodic ? test::Periodic::both : test::Periodic::none);
 }
 
 // Disks, segments and thick segments, some of which reach beyond the sides.

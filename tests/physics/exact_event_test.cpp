@@ -246,7 +246,7 @@ TEST(TcHop, OffASideThatADiskLeavesIsNone) {
 // of the box is brought back, and what the shear does is all the energy that comes.
 TEST(CollideSheared, AcrossTheTopGivesTheWorkOfTheShear) {
   ExactRules rules;
-  rules.box = test::box_of(20.0, 10.0, true, true);
+  rules.box = test::box_of(20.0, 10.0, test::Periodic::both);
   rules.box.shear = {0.4, 4.0, 3.0};
   rules.common_mass = false;
   const double s = 0.25;

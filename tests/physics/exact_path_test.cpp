@@ -14,7 +14,7 @@ namespace {
 // One event for the axis: a quarter of the period, 3, at the side that the disk moves towards. At rest it falls that
 // far in sqrt(2 3 / g); one that moves up has a bound that it cannot beat, 3 = v t + g t^2 / 2.
 TEST(TimeToCrossing, IsThatOfAQuarterOfThePeriod) {
-  const Domain box = test::box_of(8.0, 12.0, true, true);
+  const Domain box = test::box_of(8.0, 12.0, test::Periodic::both);
   const Gravity g(1.5);
   const auto time = [&](Side side, double vx, double vy, const Gravity& falls) {
     return time_to_crossing(side, {0.0, 5.0, 5.0, vx, vy}, box, falls);
@@ -50,7 +50,7 @@ TEST(SideTime, OfASinkIsNowWhereADiskTouchesIt) {
 // In a box 4 high and wide a disk of radius 0.5 flies away from the nearest image of another one, 1.5 away along each
 // axis, and into the image behind it, 2.5 away.
 TEST(TimeToContact, IsThatOfTheImageBehindTheNearest) {
-  const Domain box = test::box_of(4.0, 4.0, true, true);
+  const Domain box = test::box_of(4.0, 4.0, test::Periodic::both);
   const auto time = [&](double dx, double dy, double vx, double vy, double end = 9.0) {
     return collision_time({0.0, 0.5, 0.5, 0.0, 0.0}, {0.0, 0.5 + dx, 0.5 + dy, vx, vy}, 1.0, box, 0.0, end);
   };
@@ -71,7 +71,7 @@ TEST(TimeToContact, IsThatOfTheImageBehindTheNearest) {
 
 // In a shear flow the images in the row of a disk itself are those of a box at rest.
 TEST(TimeToContact, InAFlowIsThatOfTheImageInItsRowToo) {
-  Domain box = test::box_of(4.0, 40.0, true, true);
+  Domain box = test::box_of(4.0, 40.0, test::Periodic::both);
   box.shear = {0.25, 10.0, 0.75};
   for (const double sign : {1.0, -1.0}) {
     const PathSegment q{0.0, 2.0 + 1.5 * sign, 20.0, sign, 0.0};
@@ -81,7 +81,7 @@ TEST(TimeToContact, InAFlowIsThatOfTheImageInItsRowToo) {
 
 // Images above slide by the jump: the one above the nearest is met where it will be.
 TEST(TimeToContact, InAFlowIsThatOfTheImageThatMoves) {
-  Domain box = test::box_of(40.0, 4.0, true, true);
+  Domain box = test::box_of(40.0, 4.0, test::Periodic::both);
   box.shear.rate = 0.25;
   box.shear.jump = 1.0;
   box.shear.offset = -2.0;  // -1.5 where the paths begin

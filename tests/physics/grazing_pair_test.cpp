@@ -103,7 +103,7 @@ Grazing graze(test::Draws& draws) {
 TEST(Parting, LeavesNoDisksThatApproachByRounding) {
   test::Draws draws(29);
   ExactRules rules;
-  rules.box = test::box_of(20.0, 20.0, true, true);
+  rules.box = test::box_of(20.0, 20.0, test::Periodic::both);
   for (const bool sheared : {false, true}) {
     if (sheared) rules.box.shear = {0.5, 10.0, 3.0};
     int approached = 0;
@@ -131,7 +131,7 @@ TEST(Parting, LeavesNoDisksThatApproachByRounding) {
 TEST(Parting, LeavesNoDiskThatApproachesAWallByRounding) {
   test::Draws draws(31);
   ExactRules rules;
-  rules.box = test::box_of(20.0, 20.0, true, true);
+  rules.box = test::box_of(20.0, 20.0, test::Periodic::both);
   for (const bool moves : {false, true}) {
     const Vec2 wall_speed = moves ? Vec2{0.3, 0.7} : Vec2{};
     Obstacle wall{8.0, 10.0, 2.0, 0.0, 0.0, 1.0, 0, ObstacleKind::wall};

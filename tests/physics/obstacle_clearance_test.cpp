@@ -17,7 +17,7 @@ namespace carom {
 namespace {
 
 Domain box_of(bool periodic) {
-  return test::box_of(40.0, 25.0, periodic, periodic);
+  return test::box_of(40.0, 25.0, periodic ? test::Periodic::both : test::Periodic::none);
 }
 
 WallMotion steady(Vec2 velocity) {

@@ -72,7 +72,7 @@ TEST(ObstacleGap, OfACentreOnTheObstacleHasADirection) {
 
 // Half-way between a fixed disk and its image, and large enough to touch both: one contact, with the nearest.
 TEST(ObstacleGap, OfTwoImagesTheNearestIsTouched) {
-  Domain box = test::box_of(4.0, 10.0, true);
+  Domain box = test::box_of(4.0, 10.0, test::Periodic::x);
   const ObstacleCells cells({{0.5, 5.0, 0.0, 0.0, 1.0}}, {}, box);
   box.obstacles = &cells;
   for (const double x : {2.4, 2.6}) {
@@ -183,7 +183,7 @@ TEST(FallPast, TurnsWhereTheApproachHasNoSlope) {
 TEST(ObstacleGap, OfImagesAndOfWallsThatWentRoundIsSeenOnce) {
   test::Draws draws(9);
   for (const int kind : {0, 1, 2}) {  // a fixed disk, an inner wall, one that moves
-    Domain box = test::box_of(10.0, 12.0, true, true);
+    Domain box = test::box_of(10.0, 12.0, test::Periodic::both);
     Obstacle o{9.0, 11.0, 0.0, 0.0, 1.5, 1.0, 0, ObstacleKind::disk};
     if (kind > 0) o = {7.0, 11.5, 3.0, -1.0, 0.0, 1.0, 0, ObstacleKind::wall};
     o.moves = kind == 2;

@@ -31,7 +31,8 @@ enum class Way { up, down, both };
 // thinnest, and have moved since, every fourth one far. Where they have gone both ways, two have come as near to each
 // other across the second slab as any may.
 struct Gas {
-  Gas(bool periodic, Way way, double furthest, std::uint64_t seed) : box(test::box_of(width, height, true, periodic)) {
+  Gas(bool periodic, Way way, double furthest, std::uint64_t seed)
+      : box(test::box_of(width, height, periodic ? test::Periodic::both : test::Periodic::x)) {
     test::Draws draws(seed);
     const double thickness = draws.in(6.5, 14.0), low = draws.in(15.0, 17.0);
     cut.bounds = {0.0, low, low + thickness, height};
@@ -237,7 +238,7 @@ void expect_orders(const std::optional<Disks>& found, const std::vector<Vec2>& e
 // Two crowds, and between them one disk at the border of two slabs, whose neighbours are on both sides and further away
 // than those of an even gas: ranks look again, and six that its rank knows meanwhile are no answer.
 TEST(OrdersOverRanks, AreThoseOfAllDisksWhereNeighboursAreFar) {
-  const Domain box = test::box_of(width, height, true, false);
+  const Domain box = test::box_of(width, height, test::Periodic::x);
   const SlabCut cut{{0.0, 30.0, height}};
   EXPECT_LT(first_reach(box, 401), 7.5);
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -257,7 +258,7 @@ TEST(OrdersOverRanks, AreThoseOfAllDisksWhereNeighboursAreFar) {
 
 // Of all disks together seven are needed, however few each rank has.
 TEST(OrdersOverRanks, NeedSevenDisksOfAllRanks) {
-  const Domain box = test::box_of(width, height, true, false);
+  const Domain box = test::box_of(width, height, test::Periodic::x);
   const SlabCut cut{{0.0, 0.5 * height, height}};
   AnalysisPlan plan;
   plan.wanted[static_cast<std::size_t>(Quantity::bond_correlation)] = true;

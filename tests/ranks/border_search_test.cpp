@@ -34,7 +34,9 @@ Disk drawn_disk(test::Draws& draws, double low, double high, DiskId id) {
 // A rank's disks, sorted into the cells of its slab, and moved since.
 struct Part {
   Part(int rank, bool periodic, double moved, std::uint64_t seed)
-      : box(test::box_of(14.0, 30.0, true, periodic)), slab(slab_of(cut, box, rank)), draws(seed) {
+      : box(test::box_of(14.0, 30.0, periodic ? test::Periodic::both : test::Periodic::x)),
+        slab(slab_of(cut, box, rank)),
+        draws(seed) {
     for (DiskId id = 0; id < 260; ++id) push_back(d, drawn_disk(draws, slab.low, slab.high, 2 * id), columns);
     make_grid(box, largest, count_classes(d, largest), cells.grid, stepping_margin);
     keep_rows(cells.grid, slab.low, slab.high);
@@ -81,7 +83,7 @@ void for_parts(See&& see) {
 
 // Heights by hand: 1 below a slab, 1 above it, and across the bottom of a periodic box.
 TEST(Beyond, IsTheDistanceFromBothBorders) {
-  const Domain walls = test::box_of(14.0, 30.0), periodic = test::box_of(14.0, 30.0, false, true);
+  const Domain walls = test::box_of(14.0, 30.0), periodic = test::box_of(14.0, 30.0, test::Periodic::y);
   const Slab lowest = slab_of(cut, walls, 0), middle = slab_of(cut, walls, 1);
   EXPECT_FALSE(lowest.has_lower);
   EXPECT_TRUE(lowest.has_upper && middle.has_lower && middle.has_upper);

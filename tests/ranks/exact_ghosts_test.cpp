@@ -36,7 +36,8 @@ double first_height(test::Draws& draws, DiskId id, bool clear) {
 
 // Where each disk was when ghosts were chosen, and where it is now.
 struct Heights {
-  Heights(bool periodic, double moved, std::uint64_t seed) : box(test::box_of(50.0, height, true, periodic)) {
+  Heights(bool periodic, double moved, std::uint64_t seed)
+      : box(test::box_of(50.0, height, periodic ? test::Periodic::both : test::Periodic::x)) {
     test::Draws draws(seed);
     for (DiskId id = 0; id < disks; ++id) {
       before.push_back(first_height(draws, id, seed % 4 == 1));

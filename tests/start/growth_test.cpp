@@ -214,8 +214,8 @@ TEST(Growth, DisksLieWithinWallsToTheLastBit) {
     d.radius = {1.0};
     EXPECT_TRUE(grow_step(d, walls, {1.0}).overlap);
     EXPECT_TRUE(grow_by_cells(Executor(1), d, walls, {1.0}).overlap);
-    EXPECT_TRUE(within_sides(test::box_of(8.0, 4.0, true, false), x, p.y, 1.0));
-    EXPECT_TRUE(within_sides(test::box_of(8.0, 4.0, false, true), p.x, y, 1.0));
+    EXPECT_TRUE(within_sides(test::box_of(8.0, 4.0, test::Periodic::x), x, p.y, 1.0));
+    EXPECT_TRUE(within_sides(test::box_of(8.0, 4.0, test::Periodic::y), p.x, y, 1.0));
   }
 }
 

@@ -13,6 +13,8 @@ namespace {
 
 using test::box_of;
 using test::Draws;
+using test::Periodic;
+using test::periodic_along;
 
 // Least distance of two sites, images included; infinite for one site.
 double least_distance(const Domain& box, const std::vector<Vec2>& sites) {
@@ -51,14 +53,14 @@ void expect_sound(const Domain& box, const Lattice& lattice, Count count, double
 }
 
 TEST(SquareLattice, FillsASquareEvenly) {
-  const auto lattice = square_lattice(box_of(10, 10, false, false), 100, 1.0);
+  const auto lattice = square_lattice(box_of(10, 10), 100, 1.0);
   ASSERT_TRUE(lattice.has_value());
   EXPECT_EQ(lattice->columns, 10U);
   EXPECT_EQ(lattice->rows, 10U);
   EXPECT_EQ(lattice_site(*lattice, 0, 100), (Vec2{0.5, 0.5}));
   EXPECT_EQ(lattice_site(*lattice, 99, 100), (Vec2{9.5, 9.5}));
-  EXPECT_FALSE(square_lattice(box_of(10, 10, false, false), 101, 1.0).has_value());
-  EXPECT_EQ(square_capacity(box_of(10, 10, true, true), 1.0), 100U);
+  EXPECT_FALSE(square_lattice(box_of(10, 10), 101, 1.0).has_value());
+  EXPECT_EQ(square_capacity(box_of(10, 10, Periodic::both), 1.0), 100U);
 }
 
 // Fewer disks than sites: disk k is on site floor(k sites / disks), so that no end of the box is left empty.
@@ -69,12 +71,12 @@ TEST(SquareLattice, SpreadsFewDisksOverAllSites) {
 }
 
 TEST(SquareLattice, CountsDiametersUpToRounding) {
-  EXPECT_EQ(square_capacity(box_of(0.3, 0.3, false, false), 0.1), 9U) << "0.3 / 0.1 is below 3 in doubles";
+  EXPECT_EQ(square_capacity(box_of(0.3, 0.3), 0.1), 9U) << "0.3 / 0.1 is below 3 in doubles";
 }
 
 TEST(HexagonalLattice, IsRegularInAFittingBox) {
   const double height = 10.0 * std::sqrt(3.0) / 2.0;
-  const Domain box = box_of(10, height, true, true);
+  const Domain box = box_of(10, height, Periodic::both);
   const auto lattice = hexagonal_lattice(box, 100, 1.0);
   ASSERT_TRUE(lattice.has_value());
   EXPECT_EQ(lattice->columns, 10U);
@@ -84,7 +86,7 @@ TEST(HexagonalLattice, IsRegularInAFittingBox) {
 }
 
 TEST(HexagonalLattice, ClosesThroughPeriodicSides) {
-  const auto lattice = hexagonal_lattice(box_of(7, 9, false, true), 15, 1.0);
+  const auto lattice = hexagonal_lattice(box_of(7, 9, Periodic::y), 15, 1.0);
   ASSERT_TRUE(lattice.has_value());
   EXPECT_EQ(lattice->rows % 2, 0U);
   EXPECT_DOUBLE_EQ(lattice->spacing_y * static_cast<double>(lattice->rows), 9.0);
@@ -92,7 +94,7 @@ TEST(HexagonalLattice, ClosesThroughPeriodicSides) {
 
 // As far from the left side on even rows as from the right side on odd ones, so that no disk stands on a side.
 TEST(HexagonalLattice, IsInTheMiddleOfAPeriodicWidth) {
-  const auto lattice = hexagonal_lattice(box_of(8, 30, true, false), 40, 1.0);
+  const auto lattice = hexagonal_lattice(box_of(8, 30, Periodic::x), 40, 1.0);
   ASSERT_TRUE(lattice.has_value());
   ASSERT_GT(lattice->columns, 1U);
   const Count last = lattice->columns - 1;
@@ -104,7 +106,7 @@ TEST(HexagonalLattice, IsInTheMiddleOfAPeriodicWidth) {
 // In a narrow box disks touch one side and the other by turns, and the disk of the row below.
 TEST(HexagonalLattice, ZigzagsBetweenNarrowSides) {
   const double rise = std::sqrt(1.0 - 0.2 * 0.2);
-  const Domain box = box_of(1.2, 1.0 + 4.0 * rise + 1e-9, false, false);
+  const Domain box = box_of(1.2, 1.0 + 4.0 * rise + 1e-9);
   EXPECT_EQ(hexagonal_capacity(box, 1.0), 5U);
   const auto lattice = hexagonal_lattice(box, 5, 1.0);
   ASSERT_TRUE(lattice.has_value());
@@ -116,7 +118,7 @@ TEST(HexagonalLattice, ZigzagsBetweenNarrowSides) {
 }
 
 TEST(HexagonalLattice, HoldsMoreThanTheSquareInALargeBox) {
-  EXPECT_GT(hexagonal_capacity(box_of(50, 50, false, false), 1.0), square_capacity(box_of(50, 50, false, false), 1.0));
+  EXPECT_GT(hexagonal_capacity(box_of(50, 50), 1.0), square_capacity(box_of(50, 50), 1.0));
 }
 
 // In any box, up to the last disk that is said to fit, disks stand clear of each other and of the sides.
@@ -124,7 +126,8 @@ TEST(Lattices, SoundInAnyBoxUpToTheirCapacity) {
   Draws draws(21);
   for (int k = 0; k < 400; ++k) {
     const double diameter = draws.decades(1e-3, 1e3);
-    const Domain box = box_of(diameter * draws.in(2, 12), diameter * draws.in(2, 12), k % 2 == 0, k / 2 % 2 == 0);
+    const Domain box =
+        box_of(diameter * draws.in(2, 12), diameter * draws.in(2, 12), periodic_along(k % 2 == 0, k / 2 % 2 == 0));
     SCOPED_TRACE(k);
     for (const bool square : {true, false}) {
       const Count capacity = square ? square_capacity(box, diameter) : hexagonal_capacity(box, diameter);
@@ -144,7 +147,7 @@ TEST(Lattices, SoundInAnyBoxUpToTheirCapacity) {
 TEST(Lattices, CellsAreNearlyRegularWhenThereIsRoom) {
   Draws draws(22);
   for (int k = 0; k < 100; ++k) {
-    const Domain box = box_of(draws.in(50, 150), draws.in(50, 150), k % 2 == 0, k / 2 % 2 == 0);
+    const Domain box = box_of(draws.in(50, 150), draws.in(50, 150), periodic_along(k % 2 == 0, k / 2 % 2 == 0));
     const Count count = 200 + draws.bits() % 2000;
     const auto square = square_lattice(box, count, 0.1);
     const auto hexagonal = hexagonal_lattice(box, count, 0.1);
@@ -156,7 +159,7 @@ TEST(Lattices, CellsAreNearlyRegularWhenThereIsRoom) {
 }
 
 TEST(Lattices, HugeCountsAreQuick) {
-  const auto lattice = hexagonal_lattice(box_of(1e5, 1e5, true, true), 4'000'000'000, 1.0);
+  const auto lattice = hexagonal_lattice(box_of(1e5, 1e5, Periodic::both), 4'000'000'000, 1.0);
   ASSERT_TRUE(lattice.has_value());
   const Vec2 last = lattice_site(*lattice, 3'999'999'999, 4'000'000'000);
   EXPECT_LT(last.x, 1e5);

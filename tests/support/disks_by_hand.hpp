@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "core/disks/state.hpp"
@@ -25,10 +26,17 @@ inline void set_sides(Domain& box, SideKind left_right, SideKind bottom_top) {
   box.sides = {left_right, left_right, bottom_top, bottom_top};
 }
 
-// Sides are walls unless they are periodic.
-inline Domain box_of(double width, double height, bool periodic_x = false, bool periodic_y = false) {
+// The axes along which a box is periodic; its other sides are walls.
+enum class Periodic : std::uint8_t { none, x, y, both };
+
+constexpr Periodic periodic_along(bool x, bool y) {
+  return x && y ? Periodic::both : x ? Periodic::x : y ? Periodic::y : Periodic::none;
+}
+
+inline Domain box_of(double width, double height, Periodic along = Periodic::none) {
+  const bool x = along == Periodic::x || along == Periodic::both, y = along == Periodic::y || along == Periodic::both;
   Domain box{width, height};
-  set_sides(box, periodic_x ? SideKind::periodic : SideKind::wall, periodic_y ? SideKind::periodic : SideKind::wall);
+  set_sides(box, x ? SideKind::periodic : SideKind::wall, y ? SideKind::periodic : SideKind::wall);
   return box;
 }
 
