@@ -351,10 +351,7 @@ void bind_simulation(py::module_& m) {
       .def("warnings", &PySimulation::take_warnings)
       .def("contacts", [](const PySimulation& s) { return copied(s.look().contacts()); })
       .def("paint", &paint)
-      .def("disks",
-           [](const PySimulation& s) {
-             return columns_of(s.look().disks(), s.look().scene());
-           })
+      .def("disks", [](const PySimulation& s) { return columns_of(s.look().disks(), s.look().scene()); })
       .def("disks_at",
            [](const PySimulation& s, double t) {
              Disks disks;
