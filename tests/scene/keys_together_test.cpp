@@ -213,6 +213,19 @@ TEST(KeysTogether, AStartRegionHoldsWholeDisksBothWays) {
   EXPECT_THAT(region("[1, 1, 2.9, 8]"), HasSubstr("disks.0.region: is too small for a disk of radius 1"));
 }
 
+// 10.8 + 0.3 * 3 is above 11.7 by rounding, and 11.7 - 11.4 below 0.3.
+TEST(KeysTogether, ASideThatComesToTheEdgeInDecimalsStaysInTheBox) {
+  const auto with_right = [](const std::string& side) {
+    return complaint("[box]\nwidth = 11.7\nheight = 10.0\nright = { " + side +
+                     " }\n[[disks]]\ncount = 1\npositions = [[2, 2]]\nradius = 1.0\nmass = 2.0\n[run]\nt_end = 3.0\n");
+  };
+  EXPECT_THAT(with_right("place = 10.8, motion = { velocity = [0.3, 0.0] }"), IsEmpty());
+  EXPECT_THAT(with_right("place = 11.4, motion = { vibrate = [0.3, 0.0], period = 2.0 }"), IsEmpty());
+  EXPECT_THAT(with_right("place = 10.8, motion = { velocity = [0.3000000001, 0.0] }"), HasSubstr("out of the box"));
+  EXPECT_THAT(with_right("place = 11.4, motion = { vibrate = [0.3000000001, 0.0], period = 2.0 }"),
+              HasSubstr("out of the box"));
+}
+
 // A side and a wall that both move steadily, one after the other: the side starts behind and is faster.
 TEST(KeysTogether, ASideMayNotOvertakeAWall) {
   const auto said = [](const char* speed) {
