@@ -252,7 +252,9 @@ void check_start_region(const StartRegion& region, const Domain& box, double rad
   if (!(low.x >= -slack && low.y >= -slack && high.x <= box.width + slack && high.y <= box.height + slack)) {
     fail_input(where, fmt::format("reaches out of the box of {} x {}", box.width, box.height), expected);
   }
-  if (high.x - low.x >= 2.0 * radius && high.y - low.y >= 2.0 * radius) return;
+  // One row of disks may fill it in decimals.
+  const double least = 2.0 * radius - place_slack(box, radius);
+  if (high.x - low.x >= least && high.y - low.y >= least) return;
   fail_input(where, fmt::format("is too small for a disk of radius {}", radius),
              "expected a region that holds whole disks");
 }

@@ -213,6 +213,20 @@ TEST(KeysTogether, AStartRegionHoldsWholeDisksBothWays) {
   EXPECT_THAT(region("[1, 1, 2.9, 8]"), HasSubstr("disks.0.region: is too small for a disk of radius 1"));
 }
 
+// 0.3 - 0.1 is below 0.2 by rounding.
+TEST(KeysTogether, AStartRegionHoldsARowOfDisksInDecimals) {
+  const auto placed = [](const char* positions, const char* corners) {
+    return complaint(
+        "[box]\nwidth = 20.0\nheight = 10.0\n[[disks]]\ncount = 9\nradius = 0.1\nmass = 1.0\npositions = \"" +
+        std::string(positions) + "\"\nregion = " + corners + "\n[run]\nt_end = 1.0\n");
+  };
+  for (const char* positions : {"random", "square", "hexagonal"}) {
+    EXPECT_THAT(placed(positions, "[0.0, 0.1, 10.0, 0.3]"), IsEmpty()) << positions;
+    EXPECT_THAT(placed(positions, "[0.1, 0.0, 0.3, 10.0]"), IsEmpty()) << positions;
+    EXPECT_THAT(placed(positions, "[0.0, 0.1, 10.0, 0.299999999]"), HasSubstr("too small")) << positions;
+  }
+}
+
 // 10.8 + 0.3 * 3 is above 11.7 by rounding, and 11.7 - 11.4 below 0.3.
 TEST(KeysTogether, ASideThatComesToTheEdgeInDecimalsStaysInTheBox) {
   const auto with_right = [](const std::string& side) {
