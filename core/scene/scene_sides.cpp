@@ -150,7 +150,7 @@ void settle_sides(Scene& scene, double largest_radius, const PlaceOfKey& place) 
     const std::size_t moving = scene.box.motions[s].moves() ? s : s + 1;
     if (!scene.box.motions[moving].moves()) continue;
     const double least = least_distance(scene.box, s, scene.run.t_end);
-    if (least >= 2.0 * largest_radius) continue;
+    if (least >= 2.0 * largest_radius - place_slack(scene.box, largest_radius)) continue;
     fail_input(place(key_of(moving, "motion")),
                fmt::format("brings the {} and {} sides to {:.6g} of each other before run.t_end = {}", side_names[s],
                            side_names[s + 1], std::max(least, 0.0), scene.run.t_end),
