@@ -8,6 +8,8 @@
 #include <filesystem>
 
 #include "core/base/check.hpp"
+#include "io/files/output_file.hpp"
+#include "io/files/shown_text.hpp"
 #include "io/plots/gnuplot.hpp"
 #include "tests/support/test_folder.hpp"
 
@@ -173,6 +175,9 @@ TEST_F(Plot, LogarithmicAxesAndAGuide) {
   for (const char* const shown : {"measured", ">~ t<", ">0.1<", ">10<", ">0.001<"}) {
     EXPECT_TRUE(svg.find(shown) != std::string::npos) << shown;
   }
+  const Line earlier{"early", {1e-5, 100.0}, {1.0, 2.0}};
+  ASSERT_TRUE(draw_svg({"log", "t", 100.0, {{"y", {earlier, guide}}}, true}, path));
+  EXPECT_TRUE(text_of(path).find(">1e-05<") != std::string::npos) << "from where the first line begins";
   ASSERT_TRUE(draw_svg({"nothing", "t", 0.0, {{"y", {}}}, true}, path)) << "nor is nothing a reason to fail";
 }
 
@@ -203,8 +208,45 @@ TEST_F(Plot, TitlesThatNoXmlMayHave) {
   EXPECT_TRUE(svg.find("]]>") == std::string::npos);
 }
 
+// RFC 3629, table 3-7 of the Unicode standard: the ends of what the first two bytes may be.
+TEST(ShownText, LettersAreThoseOfUtf8) {
+  for (const char* const letter : {"a", "\xc2\x80", "\xdf\xbf", "\xe0\xa0\x80", "\xe1\x80\x80", "\xed\x9f\xbf",
+                                   "\xee\x80\x80", "\xf0\x90\x80\x80", "\xf1\x80\x80\x80", "\xf4\x8f\xbf\xbf"}) {
+    EXPECT_EQ(letter_bytes(letter), std::string(letter).size()) << letter;
+    EXPECT_EQ(shown_text(letter), letter);
+  }
+  for (const char* const none : {"\x80", "\xc1\xbf", "\xc2", "\xe0\x9f\xbf", "\xed\xa0\x80", "\xe1\x80", "\xe1\x80\xc0",
+                                 "\xf0\x8f\xbf\xbf", "\xf1\x80\x80", "\xf4\x90\x80\x80", "\xf5\x80\x80\x80"}) {
+    EXPECT_EQ(letter_bytes(none), 0U) << none;
+  }
+}
+
 TEST_F(Plot, AFullDiskIsAnError) {
   EXPECT_THROW(plot_energy("/dev/full", "full", {{0.0, 1.0}, {2.0, 1.0}, {0.0, 1.0}, {2.0, 2.0}}), RunError);
+}
+
+// gnuplot says nothing of a full disk: the end of its picture is missing, whatever its exit status.
+TEST_F(Plot, WhatGnuplotLeavesUndoneIsAnError) {
+  const std::string path = at("part.svg"), saved = getenv("PATH");
+  const auto complaint_with = [&](const std::string& commands) -> std::string {
+    write_file(at("gnuplot"), "#!/bin/sh\n" + commands);
+    fs::permissions(at("gnuplot"), fs::perms::owner_all);
+    setenv("PATH", folder_.path().c_str(), 1);
+    std::string said;
+    try {
+      plot_velocity(path, "part", {});
+    } catch (const RunError& e) {
+      said = e.what();
+    }
+    setenv("PATH", saved.c_str(), 1);
+    return said;
+  };
+  EXPECT_THAT(complaint_with("echo '<svg>' > plot.svg\n"), ::testing::HasSubstr("the picture is incomplete"));
+  EXPECT_THAT(complaint_with("echo '<svg></svg>' > plot.svg\necho 'line 3: no font'\nexit 1\n"),
+              ::testing::EndsWith("part.svg: line 3: no font"));
+  EXPECT_FALSE(fs::exists(path));
+  EXPECT_EQ(complaint_with("echo '<svg></svg>' > plot.svg\n"), "");
+  EXPECT_EQ(text_of(path), "<svg></svg>\n");
 }
 
 TEST_F(Plot, WithoutGnuplotNothingIsWritten) {
