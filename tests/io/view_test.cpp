@@ -215,6 +215,30 @@ TEST(ViewBlocks, AcrossTheTopOfAShearedBoxPlacesAreThoseOfImages) {
   const ViewFrame last = unpack_view_block(top.blocks().at(0), axes, "test").at(1);
   EXPECT_EQ(last.at[1].at(0), 0U);
   EXPECT_NEAR(axes[0].decode(last.at[0].at(0)), 6.0, 0.01);
+  const ViewEncoder bottom = frames_of({10.0, 0.1}, {10.0, 0.0});
+  const ViewFrame there = unpack_view_block(bottom.blocks().at(0), axes, "test").at(1);
+  EXPECT_EQ(there.at[1].at(0), 0U);
+  EXPECT_NEAR(axes[0].decode(there.at[0].at(0)), 10.0, 0.01) << "at the bottom itself";
+}
+
+// One that enters a region again has no place of the frame before that its speed could be told from.
+TEST(ViewBlocks, DisksThatComeBackHaveNoSpeed) {
+  const ViewAxes axes{view_axis(20.0, false, 0.1), view_axis(7.0, false, 0.1)};
+  const Disk coming{1.0, 1.0, 0.0, 0.0, 0.1, 1.0, 0}, staying{5.0, 5.0, 0.0, 0.0, 0.1, 1.0, 1};
+  ViewEncoder encoder(axes, 1);
+  for (const double time : {0.0, 1.0, 2.0}) {
+    TrajectoryFrame frame;
+    frame.time = time;
+    if (time != 1.0) append(frame.disks, coming);
+    append(frame.disks, staying);
+    encoder.add(frame);
+  }
+  EXPECT_EQ(encoder.fast_speed(), 0.0);
+}
+
+TEST(ViewBlocks, NoBlockIsEmpty) {
+  const ViewAxes axes{view_axis(20.0, true, 0.1), view_axis(7.0, false, 0.1)};
+  EXPECT_EQ(encoded(random_frames(7, 64, 20, true), axes).blocks().size(), 1U);
 }
 
 TEST(ViewBlocks, DamageIsNamedWithItsFrames) {
@@ -278,6 +302,10 @@ TEST(ViewSeries, ColumnsOfNumbersAndNoMoreRowsThanAskedFor) {
   EXPECT_EQ(series.rows, 100U);
   EXPECT_EQ(series.columns[0].size(), 25U);
   EXPECT_EQ(series.columns[0][1], 4.0);
+  EXPECT_EQ(read_view_series("t,kinetic\n0,1\n1,2\n2,3\n", 1, "s").columns[1], (std::vector<double>{1.0, 3.0}))
+      << "two rows at least";
+  EXPECT_EQ(read_view_series("t,kinetic\n-,1\n-,2\n", 30, "s").names, (std::vector<std::string>{"t", "kinetic"}))
+      << "time is there whatever it holds";
   EXPECT_EQ(read_view_series("t,kinetic\n0,1\n1,2\n2", 30, "s").columns[1].size(), 2U) << "a row that breaks off";
   EXPECT_EQ(read_view_series("t,kinetic\n0,1\n1,2.5\n2,3.", 30, "s").columns[1], (std::vector<double>{1.0, 2.5}))
       << "a number that may lack digits";
