@@ -192,6 +192,8 @@ TEST_F(OutputFolderTest, WhatIsNotOursIsNeverTouched) {
   fs::create_directories(base_ / "pictures" / "frames");
   write_file(base_ / "pictures" / "frames" / "holiday.png", "");
   EXPECT_THAT(refusal(base_ / "pictures", true), HasSubstr("'frames' with other files"));
+  fs::rename(base_ / "pictures" / "frames" / "holiday.png", base_ / "pictures" / "frames" / "frame_notes.txt");
+  EXPECT_THAT(refusal(base_ / "pictures", true), HasSubstr("'frames' with other files"));
   fs::rename(base_ / "input.toml", base_ / "scene.toml");
   try {
     check_output_folder(base_, base_ / "scene.toml", true);
