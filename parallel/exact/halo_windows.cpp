@@ -19,6 +19,8 @@ constexpr std::size_t least_disks = 4000;
 // a part comes from nearer caches, and from fewer pages.
 constexpr std::size_t most_disks = 400'000;
 constexpr std::size_t disks_of_several = 125'000;
+// The same where threads share that cache.
+constexpr std::size_t disks_of_shared = 64'000;
 // The least width of a part, in halos.
 constexpr double least_width = 2.0;
 // Where there are more parts than threads: the most disks that they have together, over those of the box. Of very many,
@@ -73,7 +75,8 @@ PieceCounts HaloWindows::pieces(Cuts cuts) const {
   const double halo = tuning_.spacings() * spacing_;
   const double most_share = n > very_many ? most_with_ghosts_of_many : most_with_ghosts;
   const bool is_much = executor_.blocks(n, most_disks) > threads;
-  for (std::size_t each = is_much ? executor_.blocks(n, disks_of_several) / threads : 1; each > 1; --each) {
+  const std::size_t wanted = executor_.blocks(n, threads == 1 ? disks_of_several : disks_of_shared);
+  for (std::size_t each = is_much ? wanted / threads : 1; each > 1; --each) {
     const PieceCounts pieces = pieces_of(threads * each, cuts);
     const bool is_ample = work_is_cut() || share_with_ghosts(pieces, scene_.box, halo) < most_share;
     if (pieces.parts() > 1 && is_ample) return pieces;
