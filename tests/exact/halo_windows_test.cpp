@@ -164,13 +164,14 @@ TEST(HaloWindows, AreVoidWhereHalosAreTooNarrow) {
   EXPECT_GT(all.void_runs, 3U);
 }
 
-// Work is cut so small that a part has 125000 / 256 disks, if a thread has more than three times as many. Halos are
-// then so narrow that most windows are void; those that are done have the right bits.
+// Work is cut so small that a thread with more than 10^6 / 512 disks has parts of 125000 / 512, or half as many where
+// there are several threads. Halos are then so narrow that most windows are void; those that are done have the right
+// bits.
 TEST(LongHaloWindows, SeveralOnEachThread) {
   const Scene scene = make_scene({100, 100, "periodic", "", random_disks(5000, equal_disks), 1000, ""});
-  for (const auto& [threads, parts] : {std::pair{1, 10U}, std::pair{2, 10U}, std::pair{3, 9U}}) {
+  for (const auto& [threads, parts] : {std::pair{1, 21U}, std::pair{2, 40U}}) {
     SCOPED_TRACE(threads);
-    const Tally tally = run_beside_one_queue(scene, threads, 256, 30);
+    const Tally tally = run_beside_one_queue(scene, threads, 512, 30);
     EXPECT_EQ(tally.parts, parts);
     EXPECT_GT(tally.done, 3);
   }
