@@ -15,9 +15,9 @@ namespace {
 
 // With fewer disks one thread is as fast.
 constexpr std::size_t least_disks = 4000;
-// A thread with more of them has several parts of about so many, one after the other: what a slice reads of a part comes
-// from nearer caches, and from fewer pages. From 4 10^5 on they are faster, at 10^6 by a sixth, but take a quarter more
-// memory.
+// A thread with more of them has several parts of about so many, one after the other: what a slice reads of a part
+// comes from nearer caches, and from fewer pages. From 4 10^5 on they are faster, at 10^6 by a sixth, but take a
+// quarter more memory.
 constexpr std::size_t most_disks = 1'000'000;
 constexpr std::size_t disks_of_several = 125'000;
 // The same where threads share that cache.

@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <utility>
 
 #include "parallel/exact/box_cut.hpp"
 
@@ -76,15 +75,15 @@ void for_places(const BoxCut& cut, std::size_t part, const Visit& visit) {
 
 TEST(PartEnds, NoteEachPartThatADiskMayReach) {
   for (const bool periodic : {false, true}) {
-    for (const auto& [x, y] : {std::pair{3, 3}, std::pair{2, 3}, std::pair{3, 2}, std::pair{1, 4}, std::pair{4, 1}}) {
-      const BoxCut cut = cut_of(static_cast<std::size_t>(x), static_cast<std::size_t>(y), periodic);
+    for (const PieceCounts pieces : {PieceCounts{3, 3}, {2, 3}, {3, 2}, {1, 4}, {4, 1}}) {
+      const BoxCut cut = cut_of(pieces.x, pieces.y, periodic);
       for (std::size_t part = 0; part < cut.parts(); ++part) {
         for_places(cut, part, [&](Vec2 at) {
           const std::uint8_t expected = bits_within(cut, part, at, 1.2);
           const Noted noted = note(cut, part, at, 0xff);
           EXPECT_TRUE(noted.stays);
           ASSERT_EQ(noted.others.may_reach, expected)
-              << x << " by " << y << ", part " << part << ", " << at.x << " " << at.y;
+              << pieces.x << " by " << pieces.y << ", part " << part << ", " << at.x << " " << at.y;
         });
       }
     }
