@@ -21,7 +21,7 @@ class PartNeighbours {
   // A bit for each of them: of the one that lies so many pieces further along x and y, -1 to 1, 0 if there is none; and
   // of the one with this number, 0 if it is not next to the part.
   std::uint8_t bit_towards(int along_x, int along_y) const {
-    return towards_[static_cast<std::size_t>(3 * along_y + along_x + 4)];
+    return towards_[place_towards(along_x, along_y)];
   }
   std::uint8_t bit_of(std::size_t part) const {
     for (std::size_t k = 0; k < count_; ++k) {
@@ -32,10 +32,14 @@ class PartNeighbours {
 
   void add(int along_x, int along_y, std::size_t part) {
     if (bit_of(part) == 0) part_[count_++] = static_cast<std::uint16_t>(part);
-    towards_[static_cast<std::size_t>(3 * along_y + along_x + 4)] = bit_of(part);
+    towards_[place_towards(along_x, along_y)] = bit_of(part);
   }
 
  private:
+  static std::size_t place_towards(int along_x, int along_y) {
+    return 3U * static_cast<unsigned>(along_y + 1) + static_cast<unsigned>(along_x + 1);
+  }
+
   std::array<std::uint16_t, 8> part_{};
   std::size_t count_ = 0;
   std::array<std::uint8_t, 9> towards_{};
