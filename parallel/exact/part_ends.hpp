@@ -20,9 +20,7 @@ class PartNeighbours {
   std::uint16_t part(std::size_t k) const { return part_[k]; }
   // A bit for each of them: of the one that lies so many pieces further along x and y, -1 to 1, 0 if there is none; and
   // of the one with this number, 0 if it is not next to the part.
-  std::uint8_t bit_towards(int along_x, int along_y) const {
-    return towards_[place_towards(along_x, along_y)];
-  }
+  std::uint8_t bit_towards(int along_x, int along_y) const { return towards_[place_towards(along_x, along_y)]; }
   std::uint8_t bit_of(std::size_t part) const {
     for (std::size_t k = 0; k < count_; ++k) {
       if (part_[k] == part) return static_cast<std::uint8_t>(1U << k);

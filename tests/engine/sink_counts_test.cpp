@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/load/scene_file.hpp"
+#include "core/scene/scene_sinks.hpp"
 #include "core/start/initial_state.hpp"
 #include "parallel/simulation.hpp"
 #include "tests/support/reference_run.hpp"
@@ -27,6 +28,15 @@ State by_engine(const Scene& scene) {
   const auto engine = make_parallel_engine(scene, initial_state(scene), {2, 1});
   while (engine->state().time < scene.run.t_end) engine->step();
   return engine->state();
+}
+
+TEST(SinkCounts, AreThoseOfTheSinkAsked) {
+  State state;
+  EXPECT_EQ(taken_by({0, "left"}, state), 0U) << "none has taken any";
+  state.taken = {1, 2, 3};
+  EXPECT_EQ(taken_by({0, "left"}, state), 1U);
+  EXPECT_EQ(taken_by({2, "bottom"}, state), 3U);
+  EXPECT_EQ(taken_by({3, "top"}, state), 0U);
 }
 
 // The left side and two of three pockets, of which the last has two pieces; no disk reaches the one in the middle.
