@@ -263,6 +263,32 @@ TEST(KeysTogether, ASideMayNotOvertakeAWall) {
   EXPECT_THAT(said("1.7"), HasSubstr("walls.0.motion: the left side comes into the room that it moves through"));
 }
 
+// Where both vibrate in step they may be in the same places, one after the other; their distance is least at a quarter
+// or at three quarters of a period.
+TEST(KeysTogether, ASideAndAWallMaySwingTogether) {
+  const auto said = [](const char* x, const char* period) {
+    return complaint(scene_with("left = { place = 2.0, motion = { vibrate = [1.0, 0.0], period = 2.0 } }\n", "", "",
+                                fmt::format("[[walls]]\nfrom = [{0}, 2]\nto = [{0}, 8]\nmotion = {{ vibrate = [4.0, "
+                                            "0.0], period = {1} }}\n",
+                                            x, period)));
+  };
+  const auto swept = HasSubstr("walls.0.motion: the left side comes into the room that it moves through");
+  EXPECT_THAT(said("6.0", "2.0"), Not(HasSubstr("walls.0")));
+  EXPECT_THAT(said("4.5", "2.0"), swept) << "0.5 where the side is at 1";
+  EXPECT_THAT(said("6.0", "3.0"), swept);
+}
+
+TEST(KeysTogether, AWallStaysInTheBox) {
+  const auto said = [](const char* velocity) {
+    return complaint(scene_with(
+        "", "", "", fmt::format("[[walls]]\nfrom = [12, 5]\nto = [14, 5]\nmotion = {{ velocity = {} }}\n", velocity)));
+  };
+  EXPECT_THAT(said("[0.0, -1.0]"), HasSubstr("walls.0.motion: brings the wall to y = -5, beyond the bottom side"));
+  EXPECT_THAT(said("[0.0, 1.0]"), HasSubstr("walls.0.motion: brings the wall to y = 15, beyond the top side"));
+  EXPECT_THAT(said("[-2.0, 0.0]"), HasSubstr("walls.0.motion: brings the wall to x = -8, beyond the left side"));
+  EXPECT_THAT(said("[1.0, 0.0]"), HasSubstr("walls.0.motion: brings the wall to x = 24, beyond the right side"));
+}
+
 // A side may come over a source's region as long as a part of it has room for a centre, a radius from the side.
 TEST(KeysTogether, ASideLeavesASourceRoom) {
   const auto said = [](const char* speed) {
