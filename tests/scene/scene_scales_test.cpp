@@ -63,6 +63,21 @@ TEST(SceneScales, DrawnMassesHaveEachItsSpeed) {
   EXPECT_GE(scales(many + "mass = 1.0\n" + one + "count = 1\n").fastest, 90.0);
 }
 
+// Half the square of a drift and of a listed velocity goes to each component, until collisions share it out.
+TEST(SceneScales, DriftsAndListsCountByTheirComponents) {
+  const auto speed = [](const std::string& velocities, const std::string& others) {
+    return scales_of(scene_from("[box]\nwidth = 20.0\nheight = 20.0\n[[disks]]\npositions = \"random\"\nradius = "
+                                "0.1\nmass = 1.0\ncount = 2\n" +
+                                velocities + others + "[run]\nt_end = 1.0\n"))
+        .speed;
+  };
+  const std::string heavy = "[[disks]]\npositions = \"random\"\nradius = 0.1\nmass = 100.0\ncount = 2\n";
+  for (const char* const moving : {"drift = [3.0, 4.0]\n", "velocities = [[3.0, 4.0], [0.0, -5.0]]\n"}) {
+    EXPECT_NEAR(speed(moving, ""), std::sqrt(12.5), 1e-12) << moving;
+    EXPECT_NEAR(speed(moving, heavy), std::sqrt(6.25), 1e-12) << moving;
+  }
+}
+
 // Of the disks that a source draws, not of its first alone.
 TEST(SceneScales, SourcesHaveAllSizesThatTheyDraw) {
   const SceneScales s =
