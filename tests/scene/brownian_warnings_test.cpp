@@ -73,6 +73,8 @@ t_end = 1.0
               testing::ElementsAre(HasSubstr("disks.mass: Brownian disks have no velocity")));
   EXPECT_THAT(warned("", "[[sources]]\nregion = [5.0, 5.0, 9.0, 9.0]\nrate = 1.0\nradius = 0.1\nmass = 2.0\n"),
               testing::ElementsAre(HasSubstr("disks.mass: Brownian disks have no velocity")));
+  EXPECT_THAT(warned("", "[[disks]]\ncount = 0\npositions = \"random\"\nradius = 0.1\nmass = 2.0\n"),
+              testing::IsEmpty());
   EXPECT_THAT(
       warned("", "[analysis]\nwhat = [\"profile\", \"velocity_autocorrelation\", \"density\", \"collision_rate\"]\n"),
       testing::ElementsAre(HasSubstr("grow in number as 1 / sqrt(dt)"), HasSubstr("temperature are those of u / dt"),

@@ -39,6 +39,10 @@ TEST(PressWarnings, TellWhenTheRoomIsTooSmall) {
   EXPECT_THAT(press_warnings(scene_with(far, "1.0", "", "6.1")), IsEmpty());
   EXPECT_THAT(press_warnings(scene_with(both)), testing::SizeIs(1));
   EXPECT_THAT(press_warnings(scene_with(far, "0.5")), IsEmpty());
+  EXPECT_THAT(press_warnings(scene_with("top = { motion = { velocity = [0.0, -0.4] } }\n")), testing::SizeIs(1))
+      << "120";
+  const char* const fixed = "[[disks]]\ncount = 1\npositions = [[2, 2]]\nradius = 1.0\nfixed = true\n";
+  EXPECT_THAT(press_warnings(scene_with(slow, "1.0", fixed)), IsEmpty()) << "obstacles do not count";
   EXPECT_THAT(scene_warnings(scene_with(far)), testing::Contains(HasSubstr("less than that by t = 6.15")));
 }
 
@@ -53,6 +57,10 @@ TEST(PressWarnings, AVibrationComesAsFarAsItComes) {
   const std::string floor = "right = {{ place = 16.5, motion = {{ vibrate = [{}, 0.0], period = 2.0 }} }}\n";
   EXPECT_THAT(press_warnings(scene_with(fmt::format(fmt::runtime(floor), 3.5))), testing::SizeIs(1));
   EXPECT_THAT(press_warnings(scene_with(fmt::format(fmt::runtime(floor), 2.5))), IsEmpty());
+  EXPECT_THAT(
+      press_warnings(scene_with("right = { place = 16.5, motion = { vibrate = [3.5, 0.0], period = 0.01 } }\n")),
+      testing::SizeIs(1))
+      << "also between the times that are looked at";
 }
 
 TEST(PressWarnings, NoneWhereSinksMakeRoom) {

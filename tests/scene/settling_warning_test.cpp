@@ -28,6 +28,9 @@ TEST(SettlingWarning, ComesNowhereElse) {
   EXPECT_THAT(warnings("run.dt", "1e-4"), testing::IsEmpty());
   EXPECT_THAT(warnings("run.method", "exact"), testing::IsEmpty());
   EXPECT_THAT(warnings("physics.restitution", "0.9"), testing::IsEmpty());
+  EXPECT_THAT(settling_warnings(test::scene_from(falling, {{"physics.restitution", "0.9"}, {"run.dt", "1.0"}})),
+              testing::IsEmpty())
+      << "whatever the step";
   EXPECT_THAT(warnings("physics.restitution", "1.0"), testing::IsEmpty());
   EXPECT_THAT(warnings("physics.gravity", "0.0"), testing::IsEmpty());
 }

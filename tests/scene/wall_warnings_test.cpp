@@ -70,6 +70,7 @@ TEST(WallWarnings, ABeltUnderAPileTakesNothingAlong) {
       ElementsAre("gas.toml:20: walls.0: moves along itself, and takes along what hits it, but not what rests on "
                   "it: method pairwise supports a pile without friction"));
   EXPECT_THAT(with("points = [[4, 2], [9, 3]]\nmotion = { vibrate = [0.1, 0], period = 1 }", {}), testing::SizeIs(1));
+  EXPECT_THAT(with("points = [[4, 2], [9, 3]]\nmotion = { vibrate = [0, 0.1], period = 1 }", {}), testing::SizeIs(1));
   EXPECT_THAT(with("points = [[4, 2], [9, 2]]\nmotion = { vibrate = [0, 0.1], period = 1 }", {}), IsEmpty()) << "lifts";
   EXPECT_THAT(with("points = [[4, 2], [4, 7]]\nmotion = { vibrate = [0, 0.1], period = 1 }", {}), IsEmpty())
       << "nothing lies on it";
