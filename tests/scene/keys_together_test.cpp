@@ -55,6 +55,8 @@ TEST(KeysTogether, ASpeedIsThatOfBothComponents) {
     return complaint(scene_with("", "", "velocities = [[0, 0], [" + v + "], [0, 0]]\n", "", "t_end = 0.0\n"));
   };
   EXPECT_THAT(velocity("0.7e60, 0.7e60"), Not(HasSubstr("has a speed of")));
+  for (const char* const one : {"1.5e60, 0", "0, 1.5e60"})
+    EXPECT_THAT(velocity(one), HasSubstr("has a speed of 1.5e+60"));
   EXPECT_THAT(velocity("0.8e60, 0.8e60"), HasSubstr("disks.0.velocities.1: is [8e+59, 8e+59]: it has a speed of 1.13"));
 }
 
@@ -67,12 +69,33 @@ TEST(KeysTogether, AFallThroughPeriodicSidesGoesOn) {
   EXPECT_THAT(fall(torus, "0.3"), IsEmpty());
   EXPECT_THAT(fall(torus, "0.5"), HasSubstr("physics.gravity: is 0.5: a disk that falls crosses the box 1.25e+16"));
   EXPECT_THAT(fall("", "0.5"), IsEmpty());
+  EXPECT_THAT(fall("", "1.5e15"), IsEmpty());
+  EXPECT_THAT(fall("", "1.7e15"), HasSubstr("a disk that falls crosses the box 9.21954e+15 times"));
+}
+
+TEST(KeysTogether, BrownianDisksGoAsFarAsAllTheirSteps) {
+  const auto diffusion = [](const char* d) {
+    return complaint(scene_with("", fmt::format("diffusion = {}\n", d), "", "", "t_end = 1e9\ndt = 1.0\n"));
+  };
+  EXPECT_THAT(diffusion("1.0"), IsEmpty());
+  EXPECT_THAT(diffusion("1e20"),
+              HasSubstr("physics.diffusion: is 1e+20: a disk in Brownian motion crosses the box 7.07"));
 }
 
 TEST(KeysTogether, KicksAreCounted) {
   EXPECT_THAT(complaint(scene_with(
                   "", "thermostat = { kind = \"langevin\", temperature = 1.0, rate = 1.0, dt = 1e-20 }\n", "", "")),
               HasSubstr("physics.thermostat.dt: is 1e-20: 1e+21 kicks until run.t_end = 10"));
+}
+
+// No method takes a kick a step but those that step.
+TEST(KeysTogether, KicksMayComeMoreOftenThanAStepThatExactDoesNotTake) {
+  const auto said = [](const char* method) {
+    return complaint(scene_with("", "thermostat = { kind = \"langevin\", temperature = 1.0, rate = 1.0, dt = 0.01 }\n",
+                                "", "", fmt::format("t_end = 10.0\ndt = 0.1\nmethod = \"{}\"\n", method)));
+  };
+  EXPECT_THAT(said("exact"), IsEmpty());
+  EXPECT_THAT(said("pairwise"), HasSubstr("physics.thermostat.dt: is 0.01, below run.dt = 0.1"));
 }
 
 TEST(KeysTogether, SmoothDisksHaveNoSpin) {
@@ -104,6 +127,11 @@ TEST(KeysTogether, AShearedBoxHasRoomAndNoCollapse) {
   EXPECT_THAT(complaint(text), IsEmpty());
   EXPECT_THAT(complaint(replaced(text, "height = 10.0", "height = 7.9")),
               HasSubstr("box.shear_rate: given of a box of 20 x 7.9 with a disk of radius 1"));
+  const std::string narrow = replaced(replaced(text, "width = 20.0", "width = 7.9"), "[8, 2]]", "[5, 8]]");
+  EXPECT_THAT(complaint(narrow), HasSubstr("box.shear_rate: given of a box of 7.9 x 10 with a disk of radius 1"));
+  EXPECT_THAT(
+      complaint(replaced(replaced(text, "shear_rate = 0.1", "shear_rate = 1e8"), "t_end = 10.0", "t_end = 1e9")),
+      HasSubstr("box.shear_rate: is 100000000: the images above move at 1000000000, 5e+16 widths"));
   EXPECT_THAT(complaint(replaced(text, "[physics]\n",
                                  "[physics]\nrestitution = 0.9\ncollapse = { model = \"tc\", contact_time = 1e-6 }\n")),
               HasSubstr("box.shear_rate: given beside physics.collapse"));
@@ -123,6 +151,19 @@ TEST(KeysTogether, SidesOfTwoPeriodsMeetInTheEnd) {
   EXPECT_THAT(said("1.0"), Not(HasSubstr("brings the left and right sides")));
 }
 
+TEST(KeysTogether, SidesAreApartFromTheStartAndWithinTheBox) {
+  const auto said = [](const char* left, const char* right) {
+    return complaint(scene_with(fmt::format("left = {{ {} }}\nright = {{ {} }}\n", left, right), "", "", ""));
+  };
+  EXPECT_THAT(
+      said("place = 10.0, motion = { velocity = [-0.5, 0.0] }", "place = 11.0, motion = { velocity = [0.5, 0.0] }"),
+      HasSubstr("brings the left and right sides to 1 of each other"));
+  EXPECT_THAT(said("motion = { velocity = [3.0, 0.0] }", "kind = \"wall\""),
+              HasSubstr("box.left.motion: brings the left side out of the box before run.t_end = 10"));
+  EXPECT_THAT(said("motion = { vibrate = [-1.0, 0.0], period = 1.0 }", "kind = \"wall\""), IsEmpty())
+      << "around an amplitude from the edge, whatever its sign";
+}
+
 TEST(KeysTogether, WallsHaveALengthAndSinksNoRestitution) {
   const std::string wall = "[[walls]]\nfrom = [12, 2]\nto = [14, 8]\n";
   EXPECT_THAT(complaint(scene_with("", "", "", wall + "kind = \"sink\"\nrestitution = 0.5\n")),
@@ -131,6 +172,10 @@ TEST(KeysTogether, WallsHaveALengthAndSinksNoRestitution) {
               HasSubstr("walls.0.to: comes to [12, 2] twice in a row"));
   EXPECT_THAT(complaint(scene_with("", "", "", "[[walls]]\npoints = [[12, 2], [14, 8], [14, 8]]\n")),
               HasSubstr("walls.0.points: comes to [14, 8] twice in a row"));
+  EXPECT_THAT(complaint(scene_with("", "", "", "[[walls]]\npoints = [[12, 2]]\n")),
+              HasSubstr("walls.0.points: has 1 of them; expected two or more"));
+  EXPECT_THAT(complaint(scene_with("", "", "", wall + "motion = { velocity = [1e61, 0.0] }\n")),
+              HasSubstr("walls.0.motion.velocity: is [1e+61, 0]; expected a speed"));
   // The square of such a length is 0, and a disk that met it left with half its energy.
   EXPECT_THAT(complaint(scene_with("", "", "", "[[walls]]\npoints = [[0, 2], [3e-162, 2]]\n")),
               HasSubstr("walls.0.points: has a segment of length 3e-162 to [3e-162, 2]; expected "));
