@@ -90,6 +90,14 @@ TEST(SceneFile, ReadsGravityAsANumberOrAVector) {
   EXPECT_EQ(gravity("[0, 2]").size, 2.0);
 }
 
+TEST(ResolvedScene, KeepsGravityThatPointsUp) {
+  Scene s = scene_from(least_scene);
+  for (const Gravity& g : {Gravity(0.0, -2.0), Gravity(-3.0, 0.0), Gravity(0.0, 2.0)}) {
+    s.physics.gravity = g;
+    EXPECT_EQ(scene_from(resolved_toml(s)).physics.gravity, g) << g.left << ' ' << g.down;
+  }
+}
+
 constexpr std::string_view every_key = R"(
 title = "all"
 seed = 12
@@ -230,7 +238,7 @@ TEST(ResolvedScene, HasATimeBetweenFramesOnlyWhereThereAreAny) {
 
 TEST(ResolvedScene, KeepsOddTitlesAndNumbers) {
   Scene s = scene_from(least_scene);
-  s.title = "quote \" backslash \\ tab \t line \n bell \a é";
+  s.title = "quote \" backslash \\ tab \t line \n bell \a delete \x7f é";
   s.groups[0].velocities.kind = VelocityLaw::Kind::list;
   s.groups[0].velocities.list = {{-0.0, 1.2345678901234567e15}, {5e-324, 0.1 + 0.2}};
   const Scene again = scene_from(resolved_toml(s));
