@@ -71,6 +71,14 @@ TEST(AnalysisScene, SamplesComeWithTheFramesWhereThereAreAny) {
   EXPECT_EQ(scene_from(with("what = [\"speeds\"]\n[output]\nevery = 0.7\nseries = true")).analysis.every, 0.7);
 }
 
+// One sample at the end, as many bins as there may be, and rows from the first sample on.
+TEST(AnalysisScene, TakesAllUpToItsBounds) {
+  for (const char* const most : {"what = []\nstart = 10.0", "what = [\"density\"]\ndensity = { bins = 100000 }",
+                                 "what = [\"density\"]\nstart = 5.0\ndensity = { every = 6e-5 }"}) {
+    EXPECT_EQ(complaint(with(most)), "") << most;
+  }
+}
+
 TEST(AnalysisScene, OneLineForWhatItDoesNotTake) {
   const std::vector<std::pair<std::string, std::string>> cases{
       {"every = 1.0",
