@@ -59,6 +59,13 @@ TEST(Csv, NamesTheLineItCannotRead) {
   EXPECT_THAT(complaint_of("1,1e999\n"), HasSubstr("p.csv:1: "));
 }
 
+TEST(Csv, ANumberHasOneSign) {
+  EXPECT_THAT(rows("+1,-2\n"), ElementsAre(Vec2{1.0, -2.0}));
+  for (const char* const line : {"+-1,2", "1,+-2", "--1,2", "++1,2", "1,-+2"}) {
+    EXPECT_THAT(complaint_of(std::string(line) + "\n"), HasSubstr("cannot read")) << line;
+  }
+}
+
 // The other way round, disks would lie elsewhere without a word.
 TEST(Csv, AHeaderThatNamesYFirstIsRefused) {
   for (const char* const heading : {"y,x", "y , x", "vy,vx", "vy [m/s],vx [m/s]", "\"y\",\"x\"", "Y,X", "y1,x1"}) {
