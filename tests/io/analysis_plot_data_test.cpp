@@ -125,6 +125,15 @@ TEST(AnalysisPlotData, GuidesOfTheDisplacementGoThroughItsEnds) {
   EXPECT_NEAR(all.blocks[2][1][1], 128.0, 1e-9);
 }
 
+// No logarithmic axis has a zero: until the first kick or collision no disk has moved.
+TEST(AnalysisPlotData, DisksAtRestHaveNoPointOfTheDisplacement) {
+  const Drawn all = drawn(scene_with("displacement"), [](AnalysisRecord& record) {
+    record.series.time = {1.0, 2.0, 5.0, 17.0};
+    record.series.displacement = {0.0, 0.0, 32.0, 128.0};
+  });
+  EXPECT_EQ(all.blocks.at(0), (Block{{4.0, 32.0}, {16.0, 128.0}}));
+}
+
 TEST(AnalysisPlotData, ProfilesSayAlongWhichAxis) {
   for (const auto& [axis, length] : {std::pair{"x", 10.0}, std::pair{"y", 20.0}}) {
     const Scene density = scene_with("density", fmt::format("density = {{ axis = \"{}\", bins = 4 }}", axis));

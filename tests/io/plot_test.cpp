@@ -113,6 +113,18 @@ TEST_F(Plot, BandsDoNotDependOnStorageOrder) {
   EXPECT_NEAR(a.bands[0].vx[5], std::sin(0.45 * M_PI), 0.01);
 }
 
+// Which zero is the least, and so what is written, hung on the storage order.
+TEST_F(Plot, ZerosOfBandsHaveNoSign) {
+  VelocityRecord r;
+  Disks d;
+  for (DiskId id = 0; id < 20; ++id) append(d, {0.0, 0.0, -0.0, id == 0 ? 0.0 : -0.0, 1.0, 1.0, id});
+  record(r, d, 0.0);
+  for (std::size_t k = 0; k < velocity_levels; ++k) {
+    EXPECT_FALSE(std::signbit(r.bands[0].vx[k])) << k;
+    EXPECT_FALSE(std::signbit(r.bands[0].vy[k])) << k;
+  }
+}
+
 // Of many disks every second or third is looked at, by its id; here none has such an id.
 TEST_F(Plot, BandsOfDisksWhoseIdsLieBetweenTheMultiples) {
   VelocityRecord r;
