@@ -334,6 +334,20 @@ TEST(KeysTogether, AWallStaysInTheBox) {
   EXPECT_THAT(said("[1.0, 0.0]"), HasSubstr("walls.0.motion: brings the wall to x = 24, beyond the right side"));
 }
 
+// Of a wall its nearer end counts, and a side that comes up to it, but for rounding, does not run into it.
+TEST(KeysTogether, ASideRunsIntoTheNearerEndOfAWall) {
+  const auto said = [](const char* side, const char* from, const char* to) {
+    return complaint(scene_with(std::string(side) + "\n", "", "",
+                                fmt::format("[[walls]]\nfrom = {}\nto = {}\n", from, to), "t_end = 3.0\n"));
+  };
+  const char* const right = "right = { motion = { velocity = [-2.5, 0.0] } }";  // up to 12.5
+  EXPECT_THAT(said(right, "[10, 4]", "[12, 4]"), IsEmpty());
+  EXPECT_THAT(said(right, "[10, 4]", "[14, 4]"), HasSubstr("walls.0: the right side runs into it at t = 2.4"));
+  const char* const left = "left = { motion = { velocity = [0.1, 0.0] } }";  // up to 3 * 0.1, above 0.3
+  EXPECT_THAT(said(left, "[0.3, 4]", "[0.3, 6]"), IsEmpty());
+  EXPECT_THAT(said(left, "[0.29, 4]", "[0.29, 6]"), HasSubstr("walls.0: the left side runs into it"));
+}
+
 // A side may come over a source's region as long as a part of it has room for a centre, a radius from the side.
 TEST(KeysTogether, ASideLeavesASourceRoom) {
   const auto said = [](const char* speed) {
@@ -366,46 +380,6 @@ TEST(KeysTogether, FixedDisksAreNotSelected) {
   };
   EXPECT_THAT(select("gas"), IsEmpty());
   EXPECT_THAT(select("pegs"), HasSubstr("output.select: unknown group \"pegs\""));
-}
-
-// A frame is asked for its velocities where the scene takes them, and no shear flow comes along: of vx = g (y - h / 2),
-// here 0.25 (y - 4), nothing is left.
-TEST(KeysTogether, FramesGiveVelocitiesWithoutTheirFlow) {
-  std::vector<bool> asked;
-  const FrameReader frames = [&](const FrameAsked& frame) -> SceneFrame {
-    asked.push_back(frame.velocities);
-    SceneFrame found{{{2.0, 2.0}, {5.0, 5.0}, {8.0, 2.0}}, {{1.0, 0.5}, {2.0, 0.0}, {-1.0, 0.0}}, {}, {}};
-    found.shear_rate = 0.25;
-    found.height = 8.0;
-    return found;
-  };
-  const std::string text =
-      replaced(scene_with(torus + "shear_rate = 0.1\n", "", "velocities = { frame = \"out\" }\n", ""),
-               "[[2, 2], [5, 5], [8, 2]]", "{ frame = \"out\" }");
-  const Scene scene = parse_scene(text, "gas.toml", "", {}, frames);
-  EXPECT_EQ(asked, (std::vector{false, true}));
-  EXPECT_EQ(scene.groups[0].velocities.list, (std::vector<Vec2>{{1.5, 0.5}, {1.75, 0.0}, {-0.5, 0.0}}));
-}
-
-// Disks of a frame of time stepping, which overlap by a little, start smaller; nothing but radii is scaled.
-TEST(KeysTogether, RadiiOfAFrameAreScaled) {
-  const FrameReader frames = [](const FrameAsked&) -> SceneFrame {
-    return {{{2.0, 2.0}, {5.0, 5.0}, {8.0, 2.0}}, {}, {0.5, 1.0, 2.0}, {1.0, 1.0, 4.0}};
-  };
-  const auto scene = [&](std::string_view radius, std::string_view mass) {
-    const std::string text = replaced(scene_with("", "", "", ""), "radius = 1.0", fmt::format("radius = {}", radius));
-    return parse_scene(replaced(text, "mass = 2.0", fmt::format("mass = {}", mass)), "gas.toml", "", {}, frames);
-  };
-  const std::string half = "{ frame = \"out\", scale = 0.5 }";
-  const DiskGroup group = scene(half, "{ frame = \"out\" }").groups[0];
-  EXPECT_EQ(group.radius.values, (std::vector{0.25, 0.5, 1.0}));
-  EXPECT_EQ(group.mass.values, (std::vector{1.0, 1.0, 4.0}));
-  try {
-    scene("1.0", half);
-    FAIL() << "was read";
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("mass.scale: is given for mass; expected it for radius alone"));
-  }
 }
 
 // What is written out is the scene that was read: a run is resumed from it.
