@@ -154,7 +154,7 @@ void change_both(Simulation& one, Simulation& other, bool mixed, test::Draws& dr
   EXPECT_EQ(one.add(second), other.add(second));
 }
 
-// And each disk is found where it is, however far it has left the cell that it was sorted into.
+// And each disk is found where it is, however far it has left the cell that it was sorted into, and each contact once.
 TEST(SimulationChanges, ManyInASmallBoxHaveTheReferencesBitsAfterEachStep) {
   for (const char* radius : {"0.3", "{ uniform = [0.1, 0.4] }"}) {
     const bool mixed = radius[0] == '{';
@@ -175,8 +175,31 @@ TEST(SimulationChanges, ManyInASmallBoxHaveTheReferencesBitsAfterEachStep) {
       reference.step(1);
       parallel.step(1);
       ASSERT_EQ(parallel.hash(), reference.hash()) << radius << " in round " << round;
+      ASSERT_TRUE(parallel.contacts() == reference.contacts()) << radius << " in round " << round;
     }
     EXPECT_GT(reference.state().counters.collisions, 200U);
+  }
+}
+
+// The last disk takes the place of one that goes, and may go from there itself.
+TEST(SimulationChanges, DisksInThePlacesOfOthersMeetOnce) {
+  for (const char* radius : {"0.3", "{ uniform = [0.1, 0.4] }"}) {
+    const Scene scene = parse_scene(std::string("[box]\npacking_fraction = 0.5\n[[disks]]\ncount = 500\nmass = 1.0\n"
+                                                "positions = \"random\"\nvelocities = { maxwell = 1.0 }\nradius = ") +
+                                        radius + "\n[run]\ndt = 0.03\nt_end = 1e3\nmethod = \"pairwise\"\n",
+                                    "gas.toml", "");
+    Simulation reference(scene, choice("reference")), parallel(scene, choice());
+    test::Draws draw(6);
+    for (int round = 0; round < 12; ++round) {
+      for (int k = 0; k < 25; ++k) {
+        const auto id = static_cast<DiskId>(draw.bits() % 500);
+        ASSERT_EQ(parallel.remove(id), reference.remove(id));
+      }
+      reference.step(1);
+      parallel.step(1);
+      ASSERT_EQ(parallel.hash(), reference.hash()) << radius << " in round " << round;
+      ASSERT_TRUE(parallel.contacts() == reference.contacts()) << radius << " in round " << round;
+    }
   }
 }
 
