@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <string>
 
 #include "core/base/check.hpp"
 #include "core/disks/state_hash.hpp"
@@ -171,6 +172,34 @@ t_end = 1
     EXPECT_EQ(state_hash(parallel->state().disks), state_hash(reference->state().disks)) << frame;
   }
   EXPECT_LT(reference->state().time, 0.3) << "no frame was split";
+}
+
+// So do a hot side and one that moves; and a ceiling sends a disk down faster than it came.
+TEST(Rollback, ADiskThatASideMakesFastIsSeenToBeFast) {
+  const auto runs_alike = [](const std::string& box, const std::string& physics, const std::string& disk) {
+    const Scene scene = parse_scene("[box]\nwidth = 20\nheight = 20\n" + box + "[physics]\n" + physics +
+                                        "[[disks]]\ncount = 1\nradius = 0.5\nmass = 1\n" + disk +
+                                        "[run]\nmethod = \"rollback\"\ndt = 0.1\nt_end = 1\n",
+                                    "test", "");
+    const auto reference = make_reference_rollback(scene, initial_state(scene));
+    const auto parallel = make_parallel_rollback(scene, initial_state(scene), {1});
+    for (int frame = 0; frame < 6; ++frame) {
+      reference->step();
+      parallel->step();
+      if (parallel->state().time != reference->state().time) return false;
+      if (state_hash(parallel->state().disks) != state_hash(reference->state().disks)) return false;
+    }
+    return true;
+  };
+  const std::string near_left = "positions = [[0.55, 10]]\nvelocities = [[-1, 0]]\n";
+  EXPECT_TRUE(runs_alike("left = { temperature = 400.0 }\n", "", near_left));
+  EXPECT_TRUE(runs_alike("left = { motion = { velocity = [2.0, 0.0] } }\n", "", near_left));
+  for (int k = 0; k < 100; ++k) {
+    const double up = 0.02 * k;
+    EXPECT_TRUE(runs_alike("", "gravity = 10.0\n",
+                           "positions = [[10, 19.45]]\nvelocities = [[0, " + std::to_string(up) + "]]\n"))
+        << up;
+  }
 }
 
 // A wall sends one disk into another, which the next frame alone finds, and parts. No warning told of it.
