@@ -9,10 +9,12 @@
 #include <vector>
 
 #include "core/base/check.hpp"
+#include "core/disks/state_hash.hpp"
 #include "core/load/scene_file.hpp"
 #include "core/start/initial_state.hpp"
 #include "core/step/engine.hpp"
 #include "parallel/simulation.hpp"
+#include "tests/support/disks_by_hand.hpp"
 #include "tests/support/feature_scenes.hpp"
 #include "tests/support/same_counters.hpp"
 #include "tests/support/thread_counts.hpp"
@@ -198,6 +200,19 @@ TEST(ParallelBlocks, AFewLargeOnesGiveTheBitsOfTheReference) {
   for (const int threads : test::thread_counts) {
     SCOPED_TRACE(threads);
     expect_same(expected, trace_of(*make_parallel_engine(scene, start, {threads}), scene.run.t_end));
+  }
+}
+
+// A disk that others have pushed into a side, and that meets nothing else now and does not approach it.
+TEST(ParallelBlocks, ADiskWithinASideIsPushedOut) {
+  for (const Method method : {Method::pairwise, Method::rollback}) {
+    const Scene scene = test::scene_of(method, 20.0, 20.0, 0.01, 1.0);
+    const State start = test::state_of(scene, {{0.48, 10.0, 0.1, 0.0, 0.5, 1.0}, {9.0, 9.0, 0.3, 0.1, 0.5, 1.0}});
+    const auto reference = make_reference_engine(scene, start);
+    const auto parallel = make_parallel_engine(scene, start, {1});
+    reference->step();
+    parallel->step();
+    EXPECT_EQ(state_hash(parallel->state().disks), state_hash(reference->state().disks));
   }
 }
 
