@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "parallel/cells/tiled_grid.hpp"
@@ -67,6 +69,42 @@ TEST(TilesKept, AreAllOrLeaveTwoGroupsOut) {
       } else if (before < beyond) {
         EXPECT_EQ(place, 0U) << row << " of " << level.rows;
       }
+    }
+  }
+}
+
+// Tiles follow each other in memory, those of a layer as neighbours, whether all are kept or but some.
+void expect_own_keys(const CellGrid& grid, bool wide) {
+  std::vector<char> seen(grid.keys, 0);
+  for (const GridLevel& level : grid.levels) {
+    const std::uint32_t stored = std::min(level.rows, level.stored_rows);
+    for (std::uint32_t place = 0; place < stored; ++place) {
+      for (std::uint32_t column = 0; column < level.columns; ++column) {
+        const std::uint32_t key = level.key_at(place, column);
+        ASSERT_LT(key, grid.keys);
+        ASSERT_EQ(seen[key]++, 0) << "row " << place << ", column " << column;
+        const std::uint32_t layer = wide ? column >> level.band_shift : place >> level.group_shift;
+        ASSERT_EQ(key / grid.tile_keys / grid.tiles_a_layer, layer);
+      }
+    }
+  }
+  EXPECT_EQ(std::count(seen.begin(), seen.end(), 0), 0) << "keys of no cell";
+}
+
+TEST(TilesKept, HaveAKeyOfItsOwnForEachCell) {
+  for (const auto& [width, height] : {std::pair{40.0, 100.0}, std::pair{100.0, 40.0}, std::pair{60.0, 60.0}}) {
+    for (const std::vector<std::size_t>& count :
+         {std::vector<std::size_t>{4000}, std::vector<std::size_t>{500, 6000}}) {
+      SCOPED_TRACE(testing::Message() << width << " x " << height << ", " << count.size() << " classes");
+      Domain box{width, height};
+      CellGrid grid;
+      make_tiled_grid(box, 0.5, count, 64, 4, grid);
+      ASSERT_GT(grid.tiles_a_layer, 1U);
+      expect_own_keys(grid, width >= height);
+      const std::uint32_t tiles = grid.tiles;
+      keep_tiles_between(box, 0.3 * height, 0.5 * height, grid);
+      ASSERT_LT(grid.tiles, tiles);
+      expect_own_keys(grid, width >= height);
     }
   }
 }
