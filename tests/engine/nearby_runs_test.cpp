@@ -77,7 +77,7 @@ TEST(TilesKept, AreAllOrLeaveTwoGroupsOut) {
 void expect_own_keys(const CellGrid& grid, bool wide) {
   std::vector<char> seen(grid.keys, 0);
   for (const GridLevel& level : grid.levels) {
-    const std::uint32_t stored = std::min(level.rows, level.stored_rows);
+    const std::uint32_t stored = std::min(level.rows, level.stored_rows.count);
     for (std::uint32_t place = 0; place < stored; ++place) {
       for (std::uint32_t column = 0; column < level.columns; ++column) {
         const std::uint32_t key = level.key_at(place, column);
@@ -105,6 +105,44 @@ TEST(TilesKept, HaveAKeyOfItsOwnForEachCell) {
       keep_tiles_between(box, 0.3 * height, 0.5 * height, grid);
       ASSERT_LT(grid.tiles, tiles);
       expect_own_keys(grid, width >= height);
+    }
+  }
+}
+
+// Is this the place of a cell, or of one of the two ends that is as near to it as the other, round the box?
+bool is_nearest(const StoredCells& stored, std::uint32_t place, std::uint32_t cell, std::uint32_t cells) {
+  const std::uint32_t after_first = (cell + cells - stored.first) % cells;
+  if (after_first < stored.count) return place == after_first;
+  const std::uint32_t beyond_last = after_first - (stored.count - 1);
+  const std::uint32_t before_first = cells - after_first;
+  return (place == 0 && before_first <= beyond_last + 1) ||
+         (place == stored.count - 1 && beyond_last <= before_first + 1);
+}
+
+// Each stored cell has a key of its own, and what lies elsewhere is where it is nearest, be the rectangle in the middle
+// of the box or across its sides.
+TEST(CellsStored, AreThoseOfTheRectangle) {
+  for (const SideKind kind : {SideKind::periodic, SideKind::wall}) {
+    for (const Vec2 low : {Vec2{20.0, 30.0}, Vec2{-11.0, 55.0}, Vec2{71.0, -5.0}}) {
+      Domain box{100.0, 80.0};
+      box.sides.fill(kind);
+      CellGrid grid = make_grid(box, 0.5, {3000});
+      store_cells_between(box, low, {low.x + 40.0, low.y + 30.0}, grid);
+      const GridLevel& level = grid.levels[0];
+      ASSERT_LT(level.stored_rows.count, level.rows);
+      ASSERT_LT(level.stored_columns.count, level.columns);
+      std::vector<char> seen(grid.keys, 0);
+      for (std::uint32_t row = 0; row < level.rows; ++row) {
+        for (std::uint32_t column = 0; column < level.columns; ++column) {
+          const std::uint32_t key = level.stored_key(row, column);
+          ASSERT_LT(key, grid.keys);
+          seen[key] = 1;
+          EXPECT_TRUE(is_nearest(level.stored_rows, key / level.stride, row, level.rows)) << row;
+          EXPECT_TRUE(is_nearest(level.stored_columns, key % level.stride, column, level.columns)) << column;
+        }
+      }
+      EXPECT_EQ(static_cast<std::uint32_t>(std::count(seen.begin(), seen.end(), 1)),
+                level.stored_rows.count * level.stored_columns.count);
     }
   }
 }
