@@ -76,7 +76,6 @@ void EventProcessor<scope>::replace_path(std::uint32_t i) {
   const PathSegment p = carried_to(record_[i].path, now, window_.rules.gravity);
   if (!lists_.stays_in_skin(i, p.x, p.y, 0.0)) relist(i, now, relist_distance(i));
   show_images_if_far(i, now);
-  predictor_.note_speed(p.vx * p.vx + p.vy * p.vy);
   predict_next_event<false>(i, now);
 }
 

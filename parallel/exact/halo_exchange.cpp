@@ -81,7 +81,8 @@ bool HaloPart::goes_as_there(const Ghost& ghost, const HaloPart& owner) const {
          (window.thermal_hits.empty() || window.thermal_hits[g] == others.thermal_hits[i]);
 }
 
-// The version becomes a new one, so that no prediction made here with an earlier one is valid.
+// The version becomes a new one, so that no prediction made here with an earlier one is valid. The ghost may be faster
+// than all disks that are known here: then crossing events and images beyond the nearest one matter from now on.
 void HaloPart::replace_path(Ghost& ghost, const HaloPart& owner) {
   WindowState& window = run_.window();
   const WindowState& others = owner.run_.window();
@@ -90,6 +91,7 @@ void HaloPart::replace_path(Ghost& ghost, const HaloPart& owner) {
   ++here.version;
   ghost.more_paths = static_cast<std::uint16_t>(here.version - others.record[i].version);
   here.path = others.record[i].path;
+  window.fastest2 = std::max(window.fastest2, here.path.vx * here.path.vx + here.path.vy * here.path.vy);
   if (!window.spin.empty()) window.spin[ghost.index] = others.spin[i];
   if (!window.last_contact.empty()) window.last_contact[ghost.index] = others.last_contact[i];
   if (!window.thermal_hits.empty()) window.thermal_hits[ghost.index] = others.thermal_hits[i];
