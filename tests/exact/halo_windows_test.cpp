@@ -290,6 +290,19 @@ TEST(HaloWindows, AreVoidWhereADiskFliesThroughAPartIntoAThird) {
   }
 }
 
+// From one of three parts into the second, which takes it over, and on into the third, which the first is not next to:
+// it is to hear of the disk from the second. A thermostat that kicks no disk keeps windows short.
+TEST(HaloWindows, TellAThirdPartOfADiskThatWasTakenOver) {
+  const std::string kicks = "thermostat = { kind = \"andersen\", temperature = 1, rate = 1e-12, dt = 0.05 }";
+  for (const std::string& disks : {lane(140, 108, 23.8, 35), lane(140, 32, 116.2, 35, 100)}) {
+    const Scene scene = make_scene({140, 35, "wall", kicks, disks, 1.0, ""});
+    const auto in_parts = make_parallel_engine(scene, initial_state(scene), {3});
+    run_to_end(*in_parts, scene);
+    EXPECT_EQ(in_parts->state().counters.collisions, 1U);
+    EXPECT_EQ(state_hash(in_parts->state().disks), state_hash(run_reference(scene, initial_state(scene)).disks));
+  }
+}
+
 // As far inside of its part as halos are wide, to the last bit, where across the period rounding tells.
 TEST(HaloWindows, KnowADiskAtTheHalosEdgeOnBothSidesOfAPeriod) {
   const std::string sides = "left = \"periodic\"\nright = \"periodic\"";
