@@ -30,11 +30,16 @@ std::string flying(double x, double velocity, double radius = 0.2) {
 // Three parts, the second from 62.29 to 76.39, with halos of 9.33 where no disk is larger than 1.17, after one window
 // of this length without a collision.
 struct AfterOneWindow {
-  AfterOneWindow(const std::string& disks, double length, double growth = 0.0)
-      : AfterOneWindow(make_scene({140, 35, "wall", "", disks, 100, ""}), 3, length, growth) {}
-  // Of so many parts.
-  AfterOneWindow(Scene in_box, int threads, double length, double growth = 0.0)
+  AfterOneWindow(const std::string& disks, double length, double growth = 0.0, bool upright = false)
+      : AfterOneWindow(make_scene({140, 35, "wall", "", disks, 100, ""}), 3, length, growth, upright) {}
+  // Of so many parts. upright: with x and y exchanged.
+  AfterOneWindow(Scene in_box, int threads, double length, double growth = 0.0, bool upright = false)
       : scene(std::move(in_box)), state(initial_state(scene)), executor(threads, 128) {
+    if (upright) {
+      std::swap(scene.box.width, scene.box.height);
+      std::swap(state.disks.x, state.disks.y);
+      std::swap(state.disks.vx, state.disks.vy);
+    }
     state.window = length;
     windows.set_growth(growth);
     const SpeedSummary speeds = summarise_speeds(state.disks, scene.box, executor);
@@ -66,15 +71,18 @@ const std::string lattices = at_rest(300, 43, 63) + at_rest(299, 63.5, 77) + at_
 
 // A disk of the second part has flown from 70 to this place. So far inside, both others have it as a ghost: it stays a
 // disk of its part wherever it goes.
-bool lists_are_complete(double place) {
-  return AfterOneWindow(flying(70, place < 70.0 ? -1 : 1) + lattices, std::abs(place - 70.0)).windows.complete_lists();
+bool lists_are_complete(double place, bool upright) {
+  AfterOneWindow after(flying(70, place < 70.0 ? -1 : 1) + lattices, std::abs(place - 70.0), 0.0, upright);
+  return after.windows.complete_lists();
 }
 
 // Another part's disk may be beyond its end as well, and come as near to the disk as they may grow: if both are less
 // than 4.47 outside, half of what halos are wider than two disks, it is a ghost here.
 TEST(HaloLists, AreCompleteWhereNoDiskIsFarBeyondItsPart) {
-  for (const double place : {57.9, 80.8}) EXPECT_TRUE(lists_are_complete(place)) << place;
-  for (const double place : {57.75, 80.95}) EXPECT_FALSE(lists_are_complete(place)) << place;
+  for (const bool upright : {false, true}) {
+    for (const double place : {57.9, 80.8}) EXPECT_TRUE(lists_are_complete(place, upright)) << place;
+    for (const double place : {57.75, 80.95}) EXPECT_FALSE(lists_are_complete(place, upright)) << place;
+  }
 }
 
 // Both may grow, even to the largest disk of all, which is in another part: that leaves 4.37.
