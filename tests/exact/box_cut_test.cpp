@@ -84,6 +84,9 @@ TEST(BoxCut, WallsHaveNoHalos) {
   const BoxCut cut = cut_box(spread(1000, 10.0, 40.0), box_of(10.0, 40.0, SideKind::wall), {1, 2}, 3.0);
   EXPECT_EQ(parts_at(cut, {5.0, 39.0}), (std::vector<std::size_t>{1}));
   EXPECT_EQ(parts_at(cut, {5.0, 1.0}), (std::vector<std::size_t>{0}));
+  const BoxCut five = cut_box(spread(3001, 40.0, 10.0), box_of(40.0, 10.0, SideKind::wall), {5, 1}, 3.0);
+  EXPECT_EQ(parts_at(five, {five.x.low(2) + 1.0, 5.0}), (std::vector<std::size_t>{2, 1}));
+  EXPECT_EQ(parts_at(five, {five.x.high(2) - 1.0, 5.0}), (std::vector<std::size_t>{2, 3}));
   // Rounding may lead a disk out.
   EXPECT_EQ(cut.part_at({-1e-12, -1e-12}), 0U);
   EXPECT_EQ(cut.part_at({10.0 + 1e-12, 40.0 + 1e-12}), 1U);

@@ -116,6 +116,29 @@ TEST(PartEnds, AreLeftForGoodWhereAThirdPartBegins) {
   }
 }
 
+// Third parts begin where the pieces next to this one end, however wide each of them is.
+TEST(PartEnds, AreLeftForGoodBehindPiecesOfAnyWidth) {
+  AxisCut axis{true, side, {0.0, 10.0, 24.0, 30.0, 50.0, side}};
+  const PartEnds ends = BoxCut{axis, axis_of(1, true), 4.0}.ends_of(2);  // from 24 to 30
+  DiskRecord disk;
+  disk.radius = 0.3;
+  OtherParts others{0xff, 0};
+  for (const double at : {11.3, 30.0, 48.7}) EXPECT_TRUE(ends.note_listing({at, 5.0}, 0.9, disk, others)) << at;
+  for (const double at : {11.1, 48.9}) EXPECT_FALSE(ends.note_listing({at, 5.0}, 0.9, disk, others)) << at;
+}
+
+// A disk that is listed again, elsewhere, may have been met where it was before.
+TEST(PartEnds, KeepInMindWhereADiskMayHaveBeen) {
+  const PartEnds ends = cut_of(3, 3, true).ends_of(4);
+  DiskRecord disk;
+  disk.radius = 0.3;
+  OtherParts others{0xff, 0};
+  ends.note_listing({20.5, 30.0}, 0.9, disk, others);
+  ends.note_listing({30.0, 39.5}, 0.9, disk, others);
+  ends.note_listing({30.0, 30.0}, 0.9, disk, others);
+  EXPECT_EQ(others.may_reach, ends.neighbours.bit_of(3) | ends.neighbours.bit_of(7));
+}
+
 // What a ghost's owner does not say of it does not matter.
 TEST(PartEnds, LeaveGhostsAlone) {
   DiskRecord ghost;
