@@ -90,7 +90,7 @@ struct BoxCut {
     std::array<std::size_t, 3> piece;
     std::size_t count = 1;
   };
-  // Pieces are as wide as a halo, so that no other one has it.
+  // Pieces are at least as wide as a halo, so that those next to the owner alone may have it.
   Pieces pieces_at(const AxisCut& axis, double c) const {
     const std::size_t own = axis.piece_at(c);
     Pieces found{{own}, 1};

@@ -29,7 +29,7 @@ constexpr double least_width = 2.0;
 constexpr double most_with_ghosts = 1.16;
 constexpr double most_with_ghosts_of_many = 1.05;
 constexpr std::size_t very_many = 50'000'000;
-// A part has at least the mean number of disks over this.
+// There are strips where a part would have fewer disks than the mean number over this.
 constexpr std::size_t least_share = 8;
 // How often a window is run in parts, each time with halos made anew, before it is run without.
 constexpr int most_tries = 3;

@@ -124,12 +124,12 @@ TEST(LongHaloWindows, SeveralOnEachThread) {
 // Two by three, two by four, three by three: a disk at a corner is a ghost of three parts, or of one, of two along a
 // period.
 TEST(LongHaloWindows, InRowsAndColumns) {
-  const Scene scene = make_scene({180, 180, "periodic", "", random_disks(16000, equal_disks), 1000, ""});
+  const Scene scene = make_scene({140, 140, "periodic", "", random_disks(9000, equal_disks), 1000, ""});
   for (const int threads : {6, 8, 9}) {
     SCOPED_TRACE(threads);
-    const Tally tally = run_beside_one_queue(scene, threads, 8, 60);
+    const Tally tally = run_beside_one_queue(scene, threads, 8, 30);
     EXPECT_EQ(tally.parts, static_cast<std::size_t>(threads));
-    EXPECT_GE(tally.done, 59);
+    EXPECT_GE(tally.done, 29);
     EXPECT_LE(tally.void_runs, 4U);
   }
 }
@@ -148,7 +148,7 @@ TEST(LongHaloWindows, OfOtherScenes) {
        1000, ""},
       {300, 300, "periodic", "", random_disks(3000, equal_disks), 1000, ""}};
   for (std::size_t k = 0; k < scenes.size(); ++k) {
-    for (const int threads : {2, 6, 9}) {
+    for (const int threads : {2, k % 2 == 0 ? 6 : 9}) {
       SCOPED_TRACE(fmt::format("scene {}, {} threads", k, threads));
       const Tally tally = run_beside_one_queue(make_scene(scenes[k]), threads, 1, 30);
       EXPECT_GE(tally.done, 25);
@@ -340,11 +340,9 @@ TEST(LongHaloWindows, WithAProjectile) {
   const std::string projectile =
       "[[disks]]\ncount = 1\npositions = [[50, 50]]\nvelocities = [[7, 99]]\nradius = 0.5\nmass = 1\n";
   const Scene scene = make_scene({100, 100, "periodic", "", projectile + random_disks(4000, equal_disks), 1000, ""});
-  for (const int threads : {3, 9}) {
-    for (const std::size_t divisor : {std::size_t{1}, std::size_t{128}}) {
-      const Tally tally = run_beside_one_queue(scene, threads, divisor, 30);
-      EXPECT_GT(tally.done, 0);
-    }
+  for (const auto& [threads, divisor] : {std::pair{3, 1U}, std::pair{3, 128U}, std::pair{9, 1U}}) {
+    const Tally tally = run_beside_one_queue(scene, threads, divisor, 30);
+    EXPECT_GT(tally.done, 0);
   }
 }
 
