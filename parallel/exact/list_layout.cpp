@@ -40,7 +40,8 @@ double crowding_of_cells(double crowded, std::size_t disks) {
 
 // crowded: how much denser than in the mean it is around the disks (crowding.hpp).
 void NeighbourLists::choose_skin(const Disks& d, const ListLayout& layout, double crowded) {
-  const double n = static_cast<double>(d.size());
+  // A part of the box may have none as yet.
+  const double n = std::max<double>(1.0, static_cast<double>(d.size()));
   double radius = 0.0;
   double area = 0.0;
   for (const double r : d.radius) {
