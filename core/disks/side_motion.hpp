@@ -10,7 +10,7 @@ namespace carom {
 
 // Where a side stands, how fast it moves and how its speed changes, all towards the inside of the box.
 struct SidePlace {
-  double inset = 0.0;         // from the edge of the box; length, >= 0
+  double inset = 0.0;         // from the edge of the box; length, >= 0 but for rounding
   double speed = 0.0;         // length / time
   double acceleration = 0.0;  // length / time^2
   bool operator==(const SidePlace&) const = default;
@@ -30,7 +30,7 @@ struct SideMotion {
     sine,
   };
   Kind kind = Kind::none;
-  double inset = 0.0;      // at time 0, or at the middle of the vibration; length, >= 0
+  double inset = 0.0;      // at time 0, or at the middle of the vibration; length, >= 0 but for rounding
   double speed = 0.0;      // of a steady motion; length / time
   double amplitude = 0.0;  // of a vibration, which begins in this direction; length, < 0: outwards
   double period = 0.0;     // time

@@ -130,7 +130,7 @@ void HaloPart::offer(std::uint32_t place, Vec2 at) {
     return PieceSteps{d <= ends.below + halo_, true, d >= ends.above - halo_};
   };
   const unsigned near = ends().bits_of(steps(ends().x.between, at.x), steps(ends().y.between, at.y));
-  OtherParts& others = this->others(i);
+  OtherParts& others = other_parts(i);
   const unsigned fresh = near & ~unsigned{others.known_to};
   others.known_to = static_cast<std::uint8_t>(others.known_to | fresh);
   for (unsigned left = fresh; left != 0; left &= left - 1) {
@@ -175,36 +175,44 @@ void HaloPart::take_over(const HaloParts& parts) {
   inside_.clear();
 }
 
-// Other parts that have the disk as a ghost are told who owns it now.
+// The bits of the parts that will have the disk as a ghost when it is this part's own: those that have it now, and its
+// owner. None where one of them is not next to this part, as it would not be told where the disk goes.
+std::uint8_t HaloPart::known_once_owned(const Ghost& ghost, HaloPart& owner) {
+  unsigned known = neighbours().bit_of(ghost.part);
+  const unsigned known_there = owner.other_parts(owner.own_[ghost.place]).known_to;
+  for (std::size_t k = 0; k < owner.neighbours().count(); ++k) {
+    const std::uint16_t part = owner.neighbours().part(k);
+    if (part == number_ || (known_there >> k & 1U) == 0) continue;
+    if (neighbours().bit_of(part) == 0) return 0;
+    known |= neighbours().bit_of(part);
+  }
+  return static_cast<std::uint8_t>(known);
+}
+
+// The other parts that have the disk as a ghost are told.
 void HaloPart::own_ghost(std::size_t number, const HaloParts& parts) {
   const Ghost ghost = ghosts_[number];
   HaloPart& owner = *parts[ghost.part];
-  std::uint32_t& there = owner.own_[ghost.place];
+  const std::uint8_t known = known_once_owned(ghost, owner);
+  if (known == 0) return;
   const auto place = static_cast<std::uint32_t>(own_.size());
-  std::uint8_t known = neighbours().bit_of(ghost.part);
-  for (std::size_t k = 0; k < owner.neighbours().count(); ++k) {
-    const std::uint16_t other = owner.neighbours().part(k);
-    if (other == number_ || (owner.others(there).known_to >> k & 1U) == 0) continue;
-    // It would not be told where the disk goes.
-    if (neighbours().bit_of(other) == 0) return;
-    known = static_cast<std::uint8_t>(known | neighbours().bit_of(other));
-  }
   for (std::size_t k = 0; k < neighbours().count(); ++k) {
-    const std::uint16_t other = neighbours().part(k);
-    if (other != ghost.part && (known >> k & 1U) != 0) {
-      parts[other]->change_owner(ghost.part, ghost.place, number_, place);
+    const std::uint16_t part = neighbours().part(k);
+    if (part != ghost.part && (known >> k & 1U) != 0) {
+      parts[part]->change_owner(ghost.part, ghost.place, number_, place);
     }
   }
   own_.push_back(ghost.index);
   record(ghost.index).progress = DiskProgress();
-  others(ghost.index) = {known, 0};
+  other_parts(ghost.index) = {known, 0};
   run_.note_listing(ghost.index);
   ghosts_[number] = ghosts_.back();
   ghosts_.pop_back();
+  std::uint32_t& there = owner.own_[ghost.place];
   DiskProgress& progress = owner.record(there).progress;
   progress = DiskProgress();
   progress.set(DiskProgress::ghost);
-  owner.others(there) = {};
+  owner.other_parts(there) = {};
   owner.ghosts_.push_back({there, place, number_, 0});
   there = none;
   run_.set_own(++own_count_);

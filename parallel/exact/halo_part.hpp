@@ -123,12 +123,13 @@ class HaloPart {
   double beyond_end(const PathSegment& path) const;
   void offer(std::uint32_t place, Vec2 at);
   void add_ghost(const Disks& all, std::uint16_t owner, const Offer& offer);
-  void own_ghost(std::size_t ghost, const HaloParts& parts);
+  std::uint8_t known_once_owned(const Ghost& ghost, HaloPart& owner);
+  void own_ghost(std::size_t number, const HaloParts& parts);
   void change_owner(std::uint16_t from, std::uint32_t place, std::uint16_t to, std::uint32_t new_place);
   DiskRecord& record(std::uint32_t i) { return run_.window().record[i]; }
   const PartEnds& ends() const { return run_.window().part; }
   const PartNeighbours& neighbours() const { return ends().neighbours; }
-  OtherParts& others(std::uint32_t i) { return run_.window().others[i]; }
+  OtherParts& other_parts(std::uint32_t i) { return run_.window().others[i]; }
 
   State state_;
   PhaseTimes times_;
