@@ -35,6 +35,12 @@ bool holds_disk(const Domain& box, double radius) {
          (box.periodic_y() || box.height * lattice_rounding >= 2.0 * radius);
 }
 
+// The place nearest to c where the disk lies between sides at 0 and length; in the middle, where length is the disk's
+// diameter but for rounding.
+double within_sides(double c, double radius, double length) {
+  return radius < length - radius ? std::clamp(c, radius, length - radius) : 0.5 * length;
+}
+
 [[noreturn]] void fail_lattice(const Scene& scene, std::size_t group, double radius, const std::string& room,
                                Count capacity) {
   const DiskGroup& g = scene.groups[group];
@@ -83,8 +89,8 @@ Vec2 LatticePlaces::at(Count k) const {
   if (!sites_.empty()) return {origin_.x + sites_[k].x, origin_.y + sites_[k].y};
   Vec2 site = lattice_site(lattice_, k, count_);
   // Rounding must not carry the outermost disks of a full lattice into a side.
-  if (!box_.periodic_x()) site.x = std::clamp(site.x, radius_, box_.width - radius_);
-  if (!box_.periodic_y()) site.y = std::clamp(site.y, radius_, box_.height - radius_);
+  if (!box_.periodic_x()) site.x = within_sides(site.x, radius_, box_.width);
+  if (!box_.periodic_y()) site.y = within_sides(site.y, radius_, box_.height);
   return {origin_.x + site.x, origin_.y + site.y};
 }
 
