@@ -80,7 +80,7 @@ if [[ $mode != --check ]]; then
 fi
 # Columns 4 to 7 are the counts. A scene that the file does not know has nothing to be held against. Cachegrind's table
 # of branches is indexed by the last 7 bits of an address and the last 7 branches: where code only came to lie elsewhere
-# (the same instructions, the same branches), mispredictions of one scene were seen to change by 11 %. Such chances even
+# (the same instructions, the same branches), mispredictions of one scene were seen to change by 17 %. Such chances even
 # out over the scenes, so the mean of all is held far closer.
 # What is below a thousandth of an event is a few dozen in the whole run, of where memory came to lie: no percentage of it
 # says anything.
