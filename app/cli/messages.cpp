@@ -5,15 +5,18 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <string>
 
-#include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
 
 namespace carom {
 
 void print_out(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return;
-  throw RunError(fmt::format("cannot write to standard output: {}", std::strerror(errno)));
+  const int error = errno;
+  const std::string what = fmt::format("cannot write to standard output: {}", std::strerror(error));
+  if (error == EPIPE) throw ReaderGone(what);
+  throw RunError(what);
 }
 
 void print_note(std::string_view text) {

@@ -3,9 +3,16 @@
 
 #include <string_view>
 
+#include "core/base/check.hpp"
+
 namespace carom {
 
-// Writes to standard output. Throws RunError where that fails (a full disk, a closed pipe).
+// Standard output is a pipe, and its reader has gone, as that of `carom docs scene | head -1`.
+struct ReaderGone : RunError {
+  using RunError::RunError;
+};
+
+// Writes to standard output. Throws ReaderGone, or RunError where that fails otherwise (a full disk).
 void print_out(std::string_view text);
 
 // "carom: ..." and "carom: warning: ..." on standard error, a line each whatever characters names in it have.

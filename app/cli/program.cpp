@@ -91,9 +91,9 @@ int program(int argc, char** argv, RankLead* lead) {
   occupy_standard_streams();
   end_with_parent();
   give_back_columns();
-  // A write that cannot be done shall return an error, which is reported, rather than end the program.
+  // A write that cannot be done shall return an error, which is reported, rather than end the program in the middle.
   std::signal(SIGXFSZ, SIG_IGN);
-  std::signal(SIGPIPE, SIG_IGN);
+  const auto at_gone_reader = std::signal(SIGPIPE, SIG_IGN);
   // The program that started this one may ignore SIGCHLD, and that is inherited: waitpid() could then not say how a
   // child ended.
   std::signal(SIGCHLD, SIG_DFL);
@@ -104,6 +104,14 @@ int program(int argc, char** argv, RankLead* lead) {
     return fail(2, error.what());
   } catch (const PhysicsError& error) {
     return fail(3, error.what());
+  } catch (const ReaderGone& error) {
+    // Nothing is left to clear away: the end is now that of any filter, by the signal, unless the caller ignores it or
+    // mpiexec would take it for the loss of a rank.
+    if (lead == nullptr) {
+      std::signal(SIGPIPE, at_gone_reader);
+      std::raise(SIGPIPE);
+    }
+    return fail(1, error.what());
   } catch (const std::bad_alloc&) {
     return fail(1, "out of memory");
   } catch (const std::exception& error) {

@@ -1,5 +1,6 @@
 // The real program, as a user or another program calls it: exit statuses, one-line errors, what each command prints.
 #include <algorithm>
+#include <csignal>
 #include <thread>
 
 #include "core/base/wall_clock.hpp"
@@ -11,9 +12,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 using test::Outcome;
 using test::text_of;
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::IsSupersetOf;
 using ::testing::MatchesRegex;
 using ::testing::Not;
 using ::testing::StartsWith;
@@ -130,13 +133,25 @@ TEST_F(CommandLine, WhatFollowsTwoDashesIsNoOption) {
   expect_error("$C check small.toml -- -more", 2, "one argument too many, \"-more\"");
 }
 
-// Whoever reads what the program prints may go away first: an error, but no signal that ends it.
-TEST_F(CommandLine, AReaderThatGoesAwayIsAnError) {
-  shell(
-      "{ until [ -e gone ]; do sleep 0.01; done; $C docs scene 2>said; echo $? >status; } | { exec <&-; : >gone; }; "
-      "true");
-  EXPECT_EQ(text_of(at("status")), "1\n");
-  EXPECT_EQ(text_of(at("said")), "carom: error: cannot write to standard output: Broken pipe\n");
+// Whoever reads what the program prints may go away first (head -1): the program ends as cat and git do, by the signal
+// and without a word, once all files are whole. Where the caller ignores the signal it is an error, as theirs.
+TEST_F(CommandLine, AReaderThatGoesAwayEndsTheProgramBySIGPIPE) {
+  const auto say_to_no_reader = [&](const std::string& before, const std::string& arguments) {
+    shell(
+        fmt::format("rm -f gone; {{ {} until [ -e gone ]; do sleep 0.01; done; $C {} 2>said; echo $? >status; }} | "
+                    "{{ exec <&-; : >gone; }}; true",
+                    before, arguments));
+    return text_of(at("status")) + text_of(at("said"));
+  };
+  for (const std::string arguments :
+       {"docs scene", "--help", "--version", "run --help", "check small.toml", "run small.toml -o out",
+        "compare out out", "render out", "view out", "sweep small.toml --seeds 2 -o swept"}) {
+    EXPECT_THAT(say_to_no_reader("", arguments),
+                AllOf(StartsWith(fmt::format("{}\n", 128 + SIGPIPE)), Not(HasSubstr("error"))));
+  }
+  EXPECT_THAT(files_in("out"), IsSupersetOf({"scene.toml", "summary.json", "trajectory.xyz", "view.html"}));
+  EXPECT_EQ(say_to_no_reader("trap '' PIPE;", "docs scene"),
+            "1\ncarom: error: cannot write to standard output: Broken pipe\n");
 }
 
 TEST_F(CommandLine, KernelsThatThereAreNotAreRefusedByEveryCommand) {
