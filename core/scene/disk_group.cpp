@@ -15,6 +15,13 @@ DiskId group_of(const std::vector<DiskId>& ends, DiskId id) {
   return static_cast<DiskId>(std::upper_bound(ends.begin(), ends.end(), id) - ends.begin());
 }
 
+DiskId group_of(const Scene& scene, DiskId id) {
+  Count end = 0;
+  std::size_t g = 0;
+  while (g < scene.groups.size() && (end += scene.groups[g].count) <= id) ++g;
+  return static_cast<DiskId>(g);
+}
+
 bool has_several_groups(const Scene& scene) {
   return scene.groups.size() + (scene.sources.empty() ? 0 : 1) > 1;
 }

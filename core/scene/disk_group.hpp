@@ -15,6 +15,9 @@ std::vector<DiskId> ends_of_groups(const Scene& scene);
 // The number of the block, counted from 0; for a disk from a source, the number after the last block's.
 DiskId group_of(const std::vector<DiskId>& ends, DiskId id);
 
+// The same without the ends, for one disk.
+DiskId group_of(const Scene& scene, DiskId id);
+
 // Are there disks of several blocks, or of one and from sources? Where not, the group of a disk says nothing.
 bool has_several_groups(const Scene& scene);
 

@@ -6,6 +6,7 @@
 
 #include "core/base/input_message.hpp"
 #include "core/disks/place_slack.hpp"
+#include "core/scene/disk_group.hpp"
 #include "core/scene/scene_names.hpp"
 #include "core/scene/swept_room.hpp"
 #include "core/start/placement.hpp"

@@ -12,6 +12,7 @@
 #include "core/disks/obstacle_cells.hpp"
 #include "core/disks/place_slack.hpp"
 #include "core/physics/obstacle_contact.hpp"
+#include "core/scene/disk_group.hpp"
 #include "core/scene/size_law.hpp"
 #include "core/start/between_sides.hpp"
 #include "core/start/initial_velocities.hpp"

@@ -4,7 +4,6 @@
 
 #include <utility>
 
-#include "core/scene/disk_group.hpp"
 #include "core/start/placement_search.hpp"
 
 namespace carom {
@@ -32,10 +31,6 @@ std::string place_in_group(const Scene& scene, std::size_t group, std::string_vi
   const DiskGroup& g = scene.groups[group];
   if (key == "positions" && !g.positions.where.empty()) return g.positions.where;
   return fmt::format("{}:{}: disks.{}.{}", scene.file, g.line, group, key);
-}
-
-std::size_t group_of(const Scene& scene, DiskId id) {
-  return group_of(ends_of_groups(scene), id);
 }
 
 }  // namespace carom

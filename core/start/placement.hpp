@@ -26,7 +26,4 @@ PlaceAtRandom place_watched(std::function<void()> watch);
 // "file:line: disks.g.key", where messages about group g point.
 std::string place_in_group(const Scene& scene, std::size_t group, std::string_view key);
 
-// The group that disk id belongs to. Precondition: id lies in one.
-std::size_t group_of(const Scene& scene, DiskId id);
-
 }  // namespace carom

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/base/input_message.hpp"
+#include "core/scene/disk_group.hpp"
 #include "core/start/placement.hpp"
 #include "core/start/start_region.hpp"
 

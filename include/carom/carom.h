@@ -4,10 +4,10 @@
  * prints or touches a signal. Every call that can fail returns a carom_status, and carom_error() of the world has a
  * line that says what was wrong. A failed call leaves the world as it was, but for one that steps, which leaves it at
  * the end of the last step made; and where memory runs out within a step or a change, the state is lost: from then on
- * numbers are 0 and all else CAROM_FAILED, until carom_load_memory takes up a saved one. Any call may return CAROM_FAILED (no memory) and CAROM_INPUT (a null pointer, NaN);
- * below stands what else it may return. Lengths, times and masses are in the scene's own units. The bits are those of
- * `carom run` of the same scene, whatever the program's compiler flags, rounding mode and threads. docs/library.md
- * shows the use. */
+ * numbers are 0 and all else CAROM_FAILED, until carom_load_memory takes up a saved one. Any call may return
+ * CAROM_FAILED (no memory) and CAROM_INPUT (a null pointer, NaN); below stands what else it may return. Lengths, times
+ * and masses are in the scene's own units. The bits are those of `carom run` of the same scene, whatever the program's
+ * compiler flags, rounding mode and threads. docs/library.md shows the use. */
 #ifndef CAROM_H
 #define CAROM_H
 
@@ -158,7 +158,8 @@ CAROM_API carom_status carom_ids(const carom_world* world, uint32_t* ids, size_t
 CAROM_API carom_status carom_positions(const carom_world* world, double* xy, size_t room);  /* x0, y0, x1, y1, ... */
 CAROM_API carom_status carom_velocities(const carom_world* world, double* xy, size_t room); /* likewise */
 CAROM_API carom_status carom_radii(const carom_world* world, double* radii, size_t room);
-CAROM_API carom_status carom_spins(const carom_world* world, double* spins, size_t room); /* 0 of smooth disks */
+CAROM_API carom_status carom_spins(const carom_world* world, double* spins, size_t room);     /* 0 of smooth disks */
+CAROM_API carom_status carom_groups(const carom_world* world, uint32_t* groups, size_t room); /* carom_group_of each */
 /* Those at time t within the last step: *count is how many, *time the time that they are of (null: not asked for).
  * That is t with the exact method; after a change, and with pairwise and rollback, it is the step's end. CAROM_INPUT
  * where t is after that step or before it, or *count is more than room. */
@@ -173,6 +174,10 @@ CAROM_API carom_status carom_disks_at(const carom_world* world, double t, carom_
 CAROM_API carom_status carom_contacts(const carom_world* world, carom_contact* contacts, size_t room, size_t* count);
 /* One disk; CAROM_NOT_FOUND where there is none of this id. */
 CAROM_API carom_status carom_get(const carom_world* world, uint32_t id, carom_disk* disk);
+
+/* The [[disks]] table of the scene that a disk with this id is of, or was, or would be, counted from 0; for a disk from
+ * a source or of carom_add, the number of tables. Of fixed disks too, as queries have their ids. */
+CAROM_API uint32_t carom_group_of(const carom_world* world, uint32_t id);
 
 /* --- Changing it, between two steps ------------------------------------------------------------------------------- */
 

@@ -102,6 +102,8 @@ class World {
   void velocities(std::span<double> xy) const { check(carom_velocities(world_, xy.data(), xy.size() / 2)); }
   void radii(std::span<double> out) const { check(carom_radii(world_, out.data(), out.size())); }
   void spins(std::span<double> out) const { check(carom_spins(world_, out.data(), out.size())); }
+  void groups(std::span<std::uint32_t> out) const { check(carom_groups(world_, out.data(), out.size())); }
+  std::uint32_t group_of(std::uint32_t id) const { return carom_group_of(world_, id); }
   std::vector<carom_disk> disks() const {
     std::vector<carom_disk> all(size());
     disks(all);

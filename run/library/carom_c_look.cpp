@@ -9,6 +9,7 @@
 
 #include "core/base/float_environment.hpp"
 #include "core/measure/invariants.hpp"
+#include "core/scene/disk_group.hpp"
 #include "run/library/world.hpp"
 
 namespace {
@@ -133,6 +134,15 @@ carom_status carom_radii(const carom_world* world, double* radii, size_t room) {
 
 carom_status carom_spins(const carom_world* world, double* spins, size_t room) {
   return fill(world, spins, room, [&](std::size_t k, const Disks& d, std::size_t i) { spins[k] = d.spin_of(i); });
+}
+
+carom_status carom_groups(const carom_world* world, uint32_t* groups, size_t room) {
+  return fill(world, groups, room,
+              [&](std::size_t k, const Disks& d, std::size_t i) { groups[k] = carom_group_of(world, d.id[i]); });
+}
+
+uint32_t carom_group_of(const carom_world* world, uint32_t id) {
+  return value_of(world, [&](const Simulation& s) { return group_of(s.scene(), id); });
 }
 
 carom_status carom_disks_at(const carom_world* world, double t, carom_disk* disks, size_t room, size_t* count,

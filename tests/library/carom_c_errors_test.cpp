@@ -85,6 +85,7 @@ TEST(CaromCErrors, NullPointersAreAStatusAndAText) {
   complains(carom_velocities(world, nullptr, 10));
   complains(carom_radii(world, nullptr, 10));
   complains(carom_spins(world, nullptr, 10));
+  complains(carom_groups(world, nullptr, 10));
   complains(carom_contacts(world, nullptr, 10, nullptr));
   complains(carom_disks_at(world, 0.0, nullptr, 10, nullptr, nullptr));
   complains(carom_get(world, 0, nullptr));

@@ -171,6 +171,27 @@ TEST(CaromC, HasSpinsWhereDisksAreRough) {
   EXPECT_EQ(smooth.find(smooth.add({5.0, 5.0, 0.0, 0.0, 1.0, 1.0, 0, std::nan("")}).value())->spin, 0.0);
 }
 
+// As trajectories have them: ids run on from table to table, fixed disks among them, and later ids are of no table.
+TEST(CaromC, GroupsAreTheTablesOfTheScene) {
+  World world = World::from_text(
+      "[box]\nwidth = 20\nheight = 10\n[[disks]]\ncount = 2\npositions = [[3, 3], [3, 6]]\nradius = 0.5\nmass = 1\n"
+      "[[disks]]\ncount = 1\nfixed = true\npositions = [[10, 5]]\nradius = 0.5\n[[disks]]\ncount = 0\nradius = 0.5\n"
+      "mass = 1\npositions = \"random\"\n[[disks]]\ncount = 1\npositions = [[15, 2]]\nradius = 0.5\nmass = 1\n[run]\n"
+      "t_end = 1\n");
+  ASSERT_EQ(world.add({17.0, 7.0, 0.0, 0.0, 0.5, 1.0, 0}), 4U);
+  std::vector<std::uint32_t> groups(world.size());
+  world.groups(groups);
+  EXPECT_THAT(groups, testing::ElementsAre(0, 0, 3, 4));
+  EXPECT_EQ(world.group_of(world.cast_ray(10.0, 1.0, 0.0, 1.0, 9.0)->id), 1U);
+  world.remove(0);
+  EXPECT_EQ(world.group_of(0), 0U);
+  EXPECT_EQ(world.group_of(4000000000), 4U);
+  EXPECT_EQ(carom_group_of(nullptr, 3), 0U);
+  std::vector<std::byte> saved;
+  world.save(saved);
+  EXPECT_EQ(World::from_memory(saved).group_of(3), 3U);
+}
+
 TEST(CaromC, GravityMayBeAVector) {
   carom_scene scene = box(CAROM_EXACT);
   scene.gravity = 0.5;

@@ -37,6 +37,8 @@ TEST(ExportedSymbols, AreWhatTheHeaderDeclaresAndNothingElse) {
                                      "carom_from_scene",
                                      "carom_from_text",
                                      "carom_get",
+                                     "carom_group_of",
+                                     "carom_groups",
                                      "carom_hash",
                                      "carom_height",
                                      "carom_ids",
