@@ -21,6 +21,8 @@
 #include "io/files/child_process.hpp"
 #include "io/movie/frame.hpp"
 #include "io/movie/movie.hpp"
+#include "io/plots/gnuplot.hpp"
+#include "io/plots/plot.hpp"
 #include "run/loop/frame_schedule.hpp"
 #include "run/outputs/run_outputs.hpp"
 #include "run/recordings/run_view.hpp"
@@ -44,8 +46,8 @@ constexpr std::size_t most_sampled = 2'000'000;
 // packed, in double and single precision; of a frame in series.csv and in a movie.
 constexpr double xyz_bytes = 134.0, xyz_spin_bytes = 21.0, xyz_single_bytes = 99.0, xyz_single_spin_bytes = 12.0,
                  h5md_bytes = 32.0, h5md_single_bytes = 15.0, row_bytes = 200.0, movie_bytes = 2e4;
-// gnuplot's SVG: of the axes, and of a point.
-constexpr double plot_bytes = 16e3, point_bytes = 19.0;
+// gnuplot's SVG: of a panel's axes, of a curve's name and style, and of a point.
+constexpr double panel_bytes = 17e3, curve_bytes = 450.0, point_bytes = 15.0;
 
 // Processor time of this process and of those that it has waited for.
 double cpu_seconds_with_children() {
@@ -221,11 +223,28 @@ double ffmpeg_bytes(const Scene& scene) {
   return at_least + pixel_bytes * static_cast<double>(layout.width) * static_cast<double>(layout.height);
 }
 
-// Points and names of the plots of frames.
+// A plot of frames: in how many panels how many curves there are in all.
+struct PlotForm {
+  double panels, curves;
+};
+
+// Two components of the velocity: a curve for each disk, or the edges of bands and the lines along them. The energy:
+// total and kinetic, and what it consists of besides.
+PlotForm plot_form(const Scene& scene, std::string_view plot, double disks) {
+  if (plot != "velocity") {
+    return {1.0, 2.0 + static_cast<double>(scene.physics.gravity.acts()) +
+                     static_cast<double>(scene.physics.surfaces.are_rough())};
+  }
+  constexpr double bands = velocity_levels / 2;
+  const bool has_bands = disks > static_cast<double>(most_velocity_curves);
+  return {2.0, 2.0 * (has_bands ? 2.0 * bands + static_cast<double>(velocity_levels) : disks)};
+}
+
 void add_plots(const Scene& scene, double disks, OutputForesight& f) {
+  const auto points = static_cast<double>(points_drawn(f.frames));
   for (const std::string& plot : scene.output.plots) {
-    const double curves = plot == "velocity" ? 2.0 * std::min(disks, static_cast<double>(most_velocity_curves)) : 3.0;
-    f.files.emplace_back(plot + ".svg", plot_bytes + point_bytes * curves * static_cast<double>(f.frames));
+    const PlotForm form = plot_form(scene, plot, disks);
+    f.files.emplace_back(plot + ".svg", panel_bytes * form.panels + (curve_bytes + point_bytes * points) * form.curves);
   }
 }
 
@@ -366,7 +385,7 @@ OutputForesight foresee_outputs(const Scene& scene, const EngineChoice& choice, 
     constexpr double file_bytes = 10e3, table_bytes = 10e3, sample_bytes = 30.0;
     const double each = table_bytes + sample_bytes * static_cast<double>(f.samples);
     f.files.emplace_back("analysis.h5", file_bytes + each * quantities_of(scene));
-    if (draws) f.files.emplace_back("plots of the analysis", quantities_of(scene) * 1.5 * plot_bytes);
+    if (draws) f.files.emplace_back("plots of the analysis", quantities_of(scene) * 1.5 * panel_bytes);
   }
   if (scene.output.checkpoint > 0.0) {
     const double bytes = checkpoint_bytes(tried.state(), population.end);

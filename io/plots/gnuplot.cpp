@@ -69,11 +69,15 @@ Range vertical_range(const Panel& panel, bool logarithmic) {
   return {panel.from_zero && r.low == 0.0 ? 0.0 : r.low - margin, r.high + margin};
 }
 
-// The points of a line, one a row. A long line keeps the least and the greatest value of each stretch, so that no
-// spike gets lost.
+// Of a long line, so many values give two points: the least and the greatest, so that no spike gets lost.
+std::size_t stretch_of(std::size_t points) {
+  return points <= most_points ? 1 : (2 * points + most_points - 1) / most_points;
+}
+
+// The points of a line, one a row.
 void append_points(std::string& data, const Line& line) {
   const std::size_t n = line.x.size();
-  const std::size_t stretch = n <= most_points ? 1 : (2 * n + most_points - 1) / most_points;
+  const std::size_t stretch = stretch_of(n);
   const auto append = [&](std::size_t i) { fmt::format_to(std::back_inserter(data), "{} {}\n", line.x[i], line.y[i]); };
   for (std::size_t begin = 0; begin < n; begin += stretch) {
     const auto first = line.y.begin() + static_cast<std::ptrdiff_t>(begin);
@@ -256,6 +260,11 @@ std::string data_of(const Figure& figure) {
 }
 
 }  // namespace
+
+std::size_t points_drawn(std::size_t points) {
+  const std::size_t stretch = stretch_of(points);
+  return stretch == 1 ? points : 2 * ((points + stretch - 1) / stretch);
+}
 
 std::size_t letters_of(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), begins_letter));

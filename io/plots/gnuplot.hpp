@@ -42,6 +42,9 @@ struct Figure {
   const char* of_ended = ", gone";  // behind the name of a line that ends earlier
 };
 
+// How many points of a line of so many a figure has, at most.
+std::size_t points_drawn(std::size_t points);
+
 std::size_t letters_of(const std::string& text);
 
 // Text (UTF-8) of so many letters at most (1 or more), the last of them "…" where some are left out.

@@ -87,6 +87,23 @@ TEST_F(LongCheckCost, AnAnalysisHasATableForEachQuantity) {
   EXPECT_LT(files["analysis.h5"].get<double>(), 1.7 * real);
 }
 
+// Two panels of curves or, of more than ten disks, of bands; a curve of more than 4000 frames has fewer points. A
+// potential energy is one curve more.
+TEST_F(LongCheckCost, PlotsAreAsLargeAsTheirCurves) {
+  for (const std::string settings :
+       {"--set output.every=0.1", "--set output.every=0.002", "--set output.every=0.0002 --set disks.0.radius=0.1",
+        "--set output.every=0.005 --set disks.0.count=30 --set physics.gravity=1.0"}) {
+    const std::string command = "small.toml --method exact --set 'output.plots=[\"velocity\", \"energy\"]' " + settings;
+    const Json files = Json::parse(carom("check --json " + command).out)["files_bytes"];
+    ASSERT_EQ(carom("run --quiet --force -o out " + command).status, 0) << settings;
+    if (!files.contains("velocity.svg")) GTEST_SKIP() << "gnuplot is not installed";
+    for (const std::string name : {"velocity.svg", "energy.svg"}) {
+      const auto real = static_cast<double>(std::filesystem::file_size(at("out") / name));
+      EXPECT_NEAR(files[name].get<double>() / real, 1.0, 0.25) << name << " " << settings;
+    }
+  }
+}
+
 // With the TC model a disk at rest collides ten times in a contact time, which the trial of a fall does not see.
 TEST_F(CheckCost, APileUnderTheTcModelIsDear) {
   const std::string fall =
