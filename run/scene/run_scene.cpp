@@ -189,12 +189,19 @@ void SceneRun::go() {
 }
 
 // A run that a PhysicsError stopped keeps what it has written, for inspection, in a place where it cannot be taken for
-// a result; and the last good state as a checkpoint.
+// a result; and as a checkpoint the last good state, or that in which disks are crushed, as they are after the step
+// only. It fails again where it goes on, but may be the run's end.
 void SceneRun::keep_stopped(const PhysicsError& error) {
   std::string last_state;
   try {
     keeper_.write(engine_, step_s_);
-    last_state = fmt::format(", its last good state in {}", checkpoint_name);
+    const State& state = engine_.progress();
+    const bool crushed = state.validity.crushed.overlap.size > 0.0;
+    last_state = fmt::format(", its last {}state in {}", crushed ? "" : "good ", checkpoint_name);
+    if (state.time > 0.0) {
+      last_state +=
+          fmt::format("; {} --t-end {} ends it there, with all results", keeper_.resume_command(), state.time);
+    }
   } catch (const RunError& why) {
     last_state = fmt::format("; {}", why.what());
   }

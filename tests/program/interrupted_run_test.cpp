@@ -368,34 +368,5 @@ TEST_F(InterruptedRun, OptionsOfResumeAreKept) {
   EXPECT_EQ(summary("out")["time"], 22.0);
 }
 
-TEST_F(InterruptedRun, TheLastGoodStateOfACollapseIsKept) {
-  write("pile.toml", R"([box]
-width = 10.0
-height = 10.0
-wall_restitution = 0.5
-[physics]
-gravity = 1.0
-restitution = 0.1
-[[disks]]
-count = 20
-positions = "random"
-velocities = { maxwell = 1.0 }
-radius = 0.5
-mass = 1.0
-[run]
-t_end = 100.0
-[output]
-every = 0.1
-series = true
-)");
-  const Outcome o = carom("run pile.toml --quiet -o out");
-  EXPECT_EQ(o.status, 3);
-  EXPECT_THAT(o.err, HasSubstr("the run up to there is kept in out/carom-unfinished, its last good state in "
-                               "checkpoint.carom\n"));
-  const Outcome again = carom("resume out --quiet");
-  EXPECT_EQ(again.status, 3);
-  EXPECT_EQ(again.err, o.err) << "the same collapse, from the state before it";
-}
-
 }  // namespace
 }  // namespace carom
