@@ -94,6 +94,7 @@ TEST_F(CheckReport, AShearFlowIsInWords) {
 
 TEST_F(CheckReport, WhatALongStepLeadsToIsTold) {
   EXPECT_THAT(said("--dt 0.5 --set 'disks.0.velocities=[[1, 0]]'"), HasSubstr("safe step: steps will be split; take"));
+  EXPECT_THAT(said("--dt 0.15 --set physics.diffusion=0.1"), HasSubstr("safe step: steps may be split; take"));
   const std::string fast = said("--dt 0.5 --set 'disks.0.velocities=[[1e4, 0]]'");
   EXPECT_THAT(fast, HasSubstr("safe step: the run will stop at once, with status 3; take"));
 }
