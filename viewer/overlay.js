@@ -56,7 +56,9 @@ function drawObstacles(context, camera, { box, axes, obstacles }, colours) {
 
 function drawWall(context, camera, [x0, y0, x1, y1], kind, colour) {
   context.strokeStyle = colour;
-  context.lineWidth = kind === "wall" ? 3 : 1.5;
+  // Half a side's line covers disks: in a thin box it is thinner.
+  const thin = camera.scale * Math.min(camera.box.width, camera.box.height);
+  context.lineWidth = Math.min(kind === "wall" ? 3 : 1.5, thin / 8);
   context.setLineDash(kind === "periodic" ? [8, 6] : kind === "sink" ? [2, 5] : []);
   context.beginPath();
   context.moveTo(...camera.toPage(x0, y0));

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { readFileSync, statSync, writeFileSync } from "node:fs";
-import { coloursAt, drawn, framesOf, restScene, Workshop } from "./view_support.mjs";
+import { drawn, framesOf, restScene, Workshop } from "./view_support.mjs";
 
 const shop = new Workshop();
 before(() => shop.open());
@@ -353,38 +353,5 @@ test("--max-size is kept, and the page and the terminal say what is left out", a
   assert.ok(sentence, err);
   const { page } = await shop.show(file);
   assert.ok((await page.textContent("#left-out")).includes(sentence));
-  await page.close();
-});
-
-// Between walls, whose lines are wider than it, it is to be zoomed.
-test("a periodic box so long that it is thinner than a pixel shows its disks", async () => {
-  shop.run(
-    "thin",
-    `[box]
-width = 4000.0
-height = 1.0
-bottom = "periodic"
-top = "periodic"
-[[disks]]
-count = 2
-positions = [[1000.0, 0.5], [3000.0, 0.5]]
-radius = 0.25
-mass = 1.0
-[run]
-method = "exact"
-t_end = 1.0
-[output]
-trajectory = "xyz"
-`,
-  );
-  const { page } = await shop.show(shop.view("thin").file);
-  await page.selectOption("#colour", "fixed");
-  await drawn(page, 0);
-  const around = [-2, -1, 0, 1, 2].map((n) => [1000, 0.5 + 2 * n]); // some pixels up and down
-  const colours = await coloursAt(page, around);
-  assert.ok(
-    colours.some((colour) => colour[2] - colour[0] > 20),
-    JSON.stringify(colours),
-  );
   await page.close();
 });
