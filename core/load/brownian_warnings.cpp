@@ -1,6 +1,7 @@
 #include "core/load/brownian_warnings.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -60,14 +61,26 @@ std::optional<double> common_restitution(const Domain& box) {
   return {};
 }
 
-// The first key that lets a contact take energy, empty if there is none.
+// Of each side that takes energy its own key.
+std::string keys_of_losing_sides(const Domain& box) {
+  std::vector<std::string> keys;
+  for (const Side side : all_sides) {
+    if (box.side(side) != SideKind::wall || !(box.restitution(side) < 1.0)) continue;
+    keys.push_back(fmt::format("box.{}.restitution", side_names[static_cast<std::size_t>(side)]));
+  }
+  return fmt::format("{}", fmt::join(keys, ", "));
+}
+
+// The first key that lets a contact take energy, empty if there is none; where the sides do not tell what they have of
+// the box and what of their own, all that it may be.
 std::string key_of_loss(const Scene& scene) {
   const std::optional<double> common = common_restitution(scene.box);
   const auto key_of_wall = [&](double restitution, const std::string& own) {
-    return restitution == common ? "box.wall_restitution" : own + ".restitution";
+    return restitution == *common ? "box.wall_restitution" : own + ".restitution";
   };
   if (scene.physics.restitution < 1.0) return "physics.restitution";
   if (scene.physics.law.dissipates()) return "physics.pairs";
+  if (!common) return keys_of_losing_sides(scene.box);
   for (const Side side : all_sides) {
     const double restitution = scene.box.restitution(side);
     if (scene.box.side(side) != SideKind::wall || !(restitution < 1.0)) continue;

@@ -63,8 +63,15 @@ t_end = 1.0
                       {"box.bottom", "periodic"},
                       {"box.top", "periodic"}}),
               testing::ElementsAre(HasSubstr("box.wall_restitution: Brownian disks")));
+  // The sides do not tell whether the box's is 0.5 or 1.
   EXPECT_THAT(warned("", "", {{"box.left", "{ restitution = 0.5 }"}, {"box.top", "{ restitution = 0.5 }"}}),
-              testing::ElementsAre(HasSubstr("box.left.restitution: Brownian disks")));
+              testing::ElementsAre(HasSubstr("toml: box.left.restitution, box.top.restitution: Brownian disks")));
+  EXPECT_THAT(warned("", "",
+                     {{"box.wall_restitution", "0.5"},
+                      {"box.left", "{ restitution = 1.0 }"},
+                      {"box.top", "{ restitution = 0.75 }"}}),
+              testing::ElementsAre(HasSubstr(
+                  "toml: box.right.restitution, box.bottom.restitution, box.top.restitution: Brownian disks")));
   EXPECT_THAT(warned("", "[[physics.pairs]]\ngroups = [\"a\", \"a\"]\nrestitution = 0.5\n", {{"disks.0.name", "a"}}),
               testing::ElementsAre(HasSubstr("physics.pairs: Brownian disks")));
   EXPECT_THAT(warned("gravity = 3.0\naccumulate = true\n", "", {{"disks.0.mass", "{ uniform = [1, 2] }"}}),
