@@ -14,6 +14,7 @@
 #include "core/start/initial_state.hpp"
 #include "core/step/engine.hpp"
 #include "core/step/step_clock.hpp"
+#include "core/step/step_start.hpp"
 #include "parallel/simulation.hpp"
 
 namespace carom::chart {
@@ -53,13 +54,9 @@ struct Trial {
   double collisions = 0.0;
 };
 
-double largest_travel2(const Disks& d) {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < d.size(); ++i) {
-    const double r = d.radius_of(i);
-    largest = std::max(largest, (d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]) / (r * r));
-  }
-  return largest;
+// A copy of the disks, as a view of them may change them.
+double largest_travel2_of(Disks d) {
+  return with_view(d, [&](const auto& view) { return largest_travel2(view, 0, d.size()); });
 }
 
 // The time at which there will have been so many collisions, between two that are known.
@@ -76,7 +73,7 @@ Trial try_exact(const Scene& scene, const Scene& run, const State& start) {
   double time = 0.0, before = 0.0;
   try {
     while (time < t_end && trial.length == 0.0) {
-      trial.travel2 = std::max(trial.travel2, largest_travel2(engine->state().disks));
+      trial.travel2 = std::max(trial.travel2, largest_travel2_of(engine->state().disks));
       engine->step();
       const double now = engine->state().time;
       trial.collisions = static_cast<double>(engine->state().counters.collisions);
@@ -91,7 +88,7 @@ Trial try_exact(const Scene& scene, const Scene& run, const State& start) {
     refuse(scene, fmt::format("exact, which all others are compared with, stops: {}", error.what()),
            fmt::format("expected a t_end before that (--t-end {:.3g})", 0.9 * time));
   }
-  trial.travel2 = std::max(trial.travel2, largest_travel2(engine->state().disks));
+  trial.travel2 = std::max(trial.travel2, largest_travel2_of(engine->state().disks));
   if (trial.flight == 0.0) trial.flight = t_end;
   if (trial.length == 0.0) trial.length = t_end;
   return trial;

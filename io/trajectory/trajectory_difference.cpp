@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <utility>
 
 #include "core/base/input_message.hpp"
+#include "core/base/same_bits.hpp"
 #include "io/trajectory/trajectory_reader.hpp"
 
 namespace carom {
@@ -18,10 +17,6 @@ namespace {
 // Times of frames are sums and products of steps: 0.3 may be 0.30000000000000004. Relative to the time: what is short
 // depends on the scene's unit, and a time of 0 is not rounded.
 constexpr double time_slack = 1e-9;
-
-bool same_bits(double a, double b) {
-  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
-}
 
 // Is what differs by so much a difference? Called for values of different bits only; a difference that is no number is.
 bool counts(const CompareRule& rule, double by) {

@@ -1,9 +1,8 @@
 // What parts tell each other: after a slice where ghosts went, and between windows which disks become ghosts, and which
 // ghosts become own disks.
 #include <algorithm>
-#include <bit>
-#include <cstdint>
 
+#include "core/base/same_bits.hpp"
 #include "core/physics/exact_path.hpp"
 #include "parallel/exact/halo_part.hpp"
 
@@ -14,12 +13,8 @@ namespace {
 // A ghost that is this far inside a part becomes one of its own disks; over the halo's width.
 constexpr double inside_share = 0.05;
 
-bool same_bits(double a, double b) {
-  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
-}
-
 // Of columns that a scene may not have.
-bool same_bits(const std::vector<double>& a, std::size_t i, const std::vector<double>& b, std::size_t k) {
+bool same_bits_at(const std::vector<double>& a, std::size_t i, const std::vector<double>& b, std::size_t k) {
   return a.empty() || same_bits(a[i], b[k]);
 }
 
@@ -76,8 +71,8 @@ bool HaloPart::goes_as_there(const Ghost& ghost, const HaloPart& owner) const {
   const DiskRecord& here = window.record[g];
   const DiskRecord& there = others.record[i];
   if (static_cast<std::uint16_t>(here.version - ghost.more_paths) != there.version) return false;
-  return same_path(here.path, there.path) && same_bits(window.spin, g, others.spin, i) &&
-         same_bits(window.last_contact, g, others.last_contact, i) &&
+  return same_path(here.path, there.path) && same_bits_at(window.spin, g, others.spin, i) &&
+         same_bits_at(window.last_contact, g, others.last_contact, i) &&
          (window.thermal_hits.empty() || window.thermal_hits[g] == others.thermal_hits[i]);
 }
 

@@ -1,9 +1,9 @@
 // The rule of rough disks by hand: one contact at a time.
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
 
+#include "core/base/same_bits.hpp"
 #include "core/physics/roughness.hpp"
 #include "tests/support/draws.hpp"
 
@@ -133,10 +133,6 @@ TEST(RoughPair, Conserves) {
         0.5 * reduced * ((1.0 - e * e) * normal * normal + q / (1.0 + q) * (1.0 - b * b) * p.slip() * p.slip());
     EXPECT_NEAR(p.energy(q) - after.energy(q), lost, 1e-11);
   }
-}
-
-bool same_bits(double a, double b) {
-  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
 // Without a limit a contact sticks however lightly it is pressed: (1 + b) q / (1 + q) of the slip turns round. With one

@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <map>
 #include <mutex>
 #include <string>
 
 #include "core/base/check.hpp"
+#include "core/base/same_bits.hpp"
 #include "core/load/scene_file.hpp"
 #include "core/start/initial_state.hpp"
 #include "parallel/ranks/local_ranks.hpp"
@@ -24,10 +24,6 @@ Scene scene_of(const std::string& box, const std::string& rest) {
 }
 
 const std::string periodic = "left = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\n";
-
-bool same_bits(double a, double b) {
-  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
-}
 
 void expect_same(const Disk& a, const Disk& b) {
   EXPECT_TRUE(same_bits(a.x, b.x) && same_bits(a.y, b.y)) << a.id << " at " << a.x << ", " << a.y;
