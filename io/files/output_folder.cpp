@@ -1,15 +1,11 @@
 #include "io/files/output_folder.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <mutex>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "core/base/check.hpp"
@@ -88,75 +84,6 @@ fs::path unfinished_of(const fs::path& folder) {
 fs::path normal(const fs::path& folder) {
   const fs::path tidy = (folder.empty() ? fs::path(".") : folder).lexically_normal();
   return tidy.has_filename() ? tidy : tidy.parent_path();
-}
-
-// The lock of a folder is a record lock on a file in it: it belongs to the process alone, so no child inherits it, not
-// even between its fork and its exec, and it ends with the process however that ends. The process loses it when it
-// closes any descriptor of the file, so it opens no second one: it keeps a list of the files that it holds. A program
-// may run scenes on several threads.
-constexpr const char* lock_name = "lock";
-
-struct LocksHeld {
-  std::mutex mutex;
-  std::vector<fs::path> files;
-
-  // Precondition: the mutex is held.
-  bool has(const fs::path& file) const {
-    std::error_code error;
-    return std::any_of(files.begin(), files.end(),
-                       [&](const fs::path& held) { return fs::equivalent(held, file, error); });
-  }
-};
-
-LocksHeld& locks_held() {
-  static LocksHeld held;
-  return held;
-}
-
-struct flock whole_file() {
-  struct flock lock {};
-  lock.l_type = F_WRLCK;
-  lock.l_whence = SEEK_SET;
-  return lock;
-}
-
-// A descriptor that holds the lock on a folder; -1 where another run has it. File systems without locks have none.
-int take_lock(const fs::path& folder, bool& another) {
-  const fs::path file = folder / lock_name;
-  LocksHeld& held = locks_held();
-  const std::lock_guard guard(held.mutex);
-  another = held.has(file);
-  if (another) return -1;
-  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  struct flock lock = whole_file();
-  another = descriptor >= 0 && fcntl(descriptor, F_SETLK, &lock) != 0 && (errno == EACCES || errno == EAGAIN);
-  if (!another) {
-    if (descriptor >= 0) held.files.push_back(fs::absolute(file));
-    return descriptor;
-  }
-  ::close(descriptor);
-  return -1;
-}
-
-void give_up_lock(const fs::path& folder, int descriptor) {
-  if (descriptor < 0) return;
-  LocksHeld& held = locks_held();
-  const std::lock_guard guard(held.mutex);
-  std::erase(held.files, fs::absolute(folder / lock_name));
-  ::close(descriptor);
-}
-
-bool locked_by_another(const fs::path& folder) {
-  const fs::path file = folder / lock_name;
-  LocksHeld& held = locks_held();
-  const std::lock_guard guard(held.mutex);
-  if (held.has(file)) return true;
-  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return false;
-  struct flock lock = whole_file();
-  const bool another = fcntl(descriptor, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
-  ::close(descriptor);
-  return another;
 }
 
 // This folder and those above it that are not there, innermost first. A link is there, whatever it leads to: it is its
@@ -239,7 +166,7 @@ void check_unfinished(const fs::path& name, bool force) {
   const fs::path unfinished = unfinished_of(normal(name));
   std::error_code error;
   if (!fs::exists(unfinished, error)) return;
-  if (locked_by_another(unfinished)) fail_locked(name);
+  if (is_locked(unfinished)) fail_locked(name);
   if (force) return;
   const std::string remedy = fs::exists(unfinished / checkpoint_name, error)
                                  ? fmt::format("go on with carom resume {}, ", shell_word(name.string()))
@@ -268,7 +195,7 @@ fs::path present_path(const fs::path& folder, const std::string& file) {
 }
 
 bool is_being_written(const fs::path& folder) {
-  return locked_by_another(unfinished_of(normal(folder)));
+  return is_locked(unfinished_of(normal(folder)));
 }
 
 void check_output_folder(const fs::path& name, const fs::path& input, bool force) {
@@ -348,13 +275,10 @@ OutputFolder::OutputFolder(const fs::path& folder)
 
 OutputFolder::~OutputFolder() {
   if (!done_) remove_unfinished();
-  give_up_lock(unfinished_, lock_);
 }
 
 void OutputFolder::lock() {
-  bool another = false;
-  lock_ = take_lock(unfinished_, another);
-  if (another) fail_locked(folder_);
+  if (!lock_.take(unfinished_)) fail_locked(folder_);
 }
 
 void OutputFolder::take_back(bool finished, const std::vector<std::string>& files) {
@@ -396,7 +320,7 @@ void OutputFolder::finish(bool keep_checkpoints) {
   }
   fs::remove_all(unfinished_, error);
   done_ = true;
-  give_up_lock(unfinished_, std::exchange(lock_, -1));
+  lock_.give_up();
 }
 
 std::string OutputFolder::keep_unfinished() {

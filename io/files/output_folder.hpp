@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "io/files/folder_lock.hpp"
+
 namespace carom {
 
 inline constexpr const char* unfinished_name = "carom-unfinished";
@@ -59,7 +61,7 @@ class OutputFolder {
   std::filesystem::path unfinished_;
   std::vector<std::filesystem::path> made_;  // folders that were not there before, innermost last
   bool done_ = false;
-  int lock_ = -1;  // descriptor of carom-unfinished/lock
+  FolderLock lock_;  // on carom-unfinished
 };
 
 // Where a file of a run lies: in folder/carom-unfinished, or in folder if the run finished.

@@ -1,0 +1,88 @@
+#include "io/files/folder_lock.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace carom {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// A record lock belongs to the process alone, so no child inherits it, not even between its fork and its exec, and it
+// ends with the process however that ends. The process loses it when it closes any descriptor of the file, so it opens
+// no second one: it keeps a list of the files that it holds. A program may run scenes on several threads.
+constexpr const char* lock_name = "lock";
+
+struct LocksHeld {
+  std::mutex mutex;
+  std::vector<fs::path> files;
+
+  // Precondition: the mutex is held.
+  bool has(const fs::path& file) const {
+    std::error_code error;
+    return std::any_of(files.begin(), files.end(),
+                       [&](const fs::path& held) { return fs::equivalent(held, file, error); });
+  }
+};
+
+LocksHeld& locks_held() {
+  static LocksHeld held;
+  return held;
+}
+
+struct flock whole_file() {
+  struct flock lock {};
+  lock.l_type = F_WRLCK;
+  lock.l_whence = SEEK_SET;
+  return lock;
+}
+
+}  // namespace
+
+bool FolderLock::take(const fs::path& folder) {
+  const fs::path file = folder / lock_name;
+  LocksHeld& held = locks_held();
+  const std::lock_guard guard(held.mutex);
+  if (held.has(file)) return false;
+  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (descriptor < 0) return true;
+  struct flock lock = whole_file();
+  if (fcntl(descriptor, F_SETLK, &lock) != 0 && (errno == EACCES || errno == EAGAIN)) {
+    ::close(descriptor);
+    return false;
+  }
+  file_ = fs::absolute(file);
+  descriptor_ = descriptor;
+  held.files.push_back(file_);
+  return true;
+}
+
+void FolderLock::give_up() {
+  if (descriptor_ < 0) return;
+  LocksHeld& held = locks_held();
+  const std::lock_guard guard(held.mutex);
+  std::erase(held.files, file_);
+  ::close(std::exchange(descriptor_, -1));
+}
+
+bool is_locked(const fs::path& folder) {
+  const fs::path file = folder / lock_name;
+  LocksHeld& held = locks_held();
+  const std::lock_guard guard(held.mutex);
+  if (held.has(file)) return true;
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  struct flock lock = whole_file();
+  const bool is_held = fcntl(descriptor, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
+  ::close(descriptor);
+  return is_held;
+}
+
+}  // namespace carom
