@@ -5,17 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
+#include "app/run/offers_report.hpp"
+#include "app/run/scene_in_words.hpp"
 #include "core/base/input_message.hpp"
 #include "core/base/short_number.hpp"
 #include "core/load/method_choice.hpp"
 #include "core/load/method_rates.hpp"
-#include "core/scene/disk_group.hpp"
 #include "core/scene/scene_names.hpp"
 #include "core/step/step_clock.hpp"
 #include "core/step/step_start.hpp"
-#include "core/step/thermostat.hpp"
 
 namespace carom {
 
@@ -23,124 +22,6 @@ namespace {
 
 std::string range_text(double low, double high) {
   return low == high ? fmt::format("{:g}", low) : fmt::format("{:g} to {:g}", low, high);
-}
-
-std::string sides_text(const Scene& scene) {
-  const Domain& box = scene.box;
-  std::string text;
-  for (const Side side : all_sides) {
-    const auto k = static_cast<std::size_t>(side);
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", side_names[k],
-                        side_kind_names[static_cast<std::size_t>(box.side(side))]);
-  }
-  if (!scene.walls.empty()) text += "; " + counted(scene.walls.size(), "inner wall");
-  const auto sinks = std::count_if(scene.walls.begin(), scene.walls.end(), [](const InnerWall& w) { return w.sink; });
-  if (sinks > 0) text += fmt::format(", of which {}", counted(static_cast<Count>(sinks), "sink"));
-  return text;
-}
-
-// " at speeds up to 2, accelerations up to 8, 0.8 times gravity's": below 1 of it, what lies on a wall that goes up and
-// down stays there.
-std::string motion_text(double speed, double acceleration, double gravity) {
-  std::string text = fmt::format(" at speeds up to {:.3g}", speed);
-  if (acceleration == 0.0) return text;
-  text += fmt::format(", accelerations up to {:.3g}", acceleration);
-  return gravity > 0.0 ? text + fmt::format(", {:.3g} times gravity's", acceleration / gravity) : text;
-}
-
-// Restitution at walls: one for all, or each with the name of its side.
-std::string walls_text(const Domain& box) {
-  std::string text;
-  bool equal = true;
-  std::optional<double> first;
-  for (const Side side : all_sides) {
-    if (box.side(side) != SideKind::wall) continue;
-    const std::string_view name = side_names[static_cast<std::size_t>(side)];
-    if (box.is_thermal(side)) {
-      equal = false;
-      text += fmt::format(", the {} wall at temperature {:g}", name, box.temperature(side));
-      continue;
-    }
-    equal = equal && box.restitution(side) == first.value_or(box.restitution(side));
-    if (!first) first = box.restitution(side);
-    text += fmt::format(", {:g} at the {} wall", box.restitution(side), name);
-  }
-  return equal && first ? fmt::format(", {:g} at walls", *first) : text;
-}
-
-// Each side that moves, then the largest figures of all inner walls.
-std::string moving_walls_text(const Scene& scene) {
-  const double gravity = scene.physics.gravity.size;
-  std::string text;
-  for (const Side side : all_sides) {
-    const auto k = static_cast<std::size_t>(side);
-    const SideMotion& motion = scene.box.motions[k];
-    if (!scene.box.moves(side)) continue;
-    text += fmt::format("; the {} wall moves{}", side_names[k],
-                        motion_text(motion.largest_speed(), motion.largest_acceleration(), gravity));
-  }
-  if (!scene.box.inner_walls_move) return text;
-  double acceleration = 0.0;
-  for (const InnerWall& wall : scene.walls) acceleration = std::max(acceleration, wall.motion.largest_acceleration());
-  return text + "; inner walls move" + motion_text(fastest_inner_wall(scene), acceleration, gravity);
-}
-
-std::string gravity_text(const Gravity& g) {
-  if (!g.acts()) return "no gravity; ";
-  if (!g.is_tilted() && g.down > 0.0) return fmt::format("gravity {:g} downwards; ", g.down);
-  return fmt::format("gravity [{:g}, {:g}]; ", 0.0 - g.left, 0.0 - g.down);
-}
-
-std::string restitution_text(const Restitution& r) {
-  if (r.viscosity == 0.0) return fmt::format("{:g}", r.least);
-  return fmt::format("max({:g}, 1 - {:g} v^(1/5))", r.least, r.viscosity);
-}
-
-// "0.9 of disks, 0.5 of light with heavy".
-std::string restitutions_text(const Scene& scene) {
-  const Physics& p = scene.physics;
-  std::string text = restitution_text({p.restitution, p.law.viscosity}) + " of disks";
-  for (const GroupPair& pair : p.law.pairs) {
-    text += fmt::format(", {} of {} with {}", restitution_text(pair.restitution), name_of_group(scene, pair.first),
-                        name_of_group(scene, pair.second));
-  }
-  return text;
-}
-
-// "0.5 along surfaces, friction 0.3".
-std::string roughness_text(const Roughness& r) {
-  const std::string friction = r.friction < HUGE_VAL ? fmt::format(", friction {:g}", r.friction) : "";
-  return fmt::format("{:g} along surfaces{}", r.restitution, friction);
-}
-
-// Empty where disks are smooth.
-std::string surfaces_text(const Surfaces& surfaces) {
-  if (!surfaces.are_rough()) return "";
-  const std::string walls = surfaces.walls.acts() ? fmt::format(" (walls: {})", roughness_text(surfaces.walls)) : "";
-  return fmt::format("; rough disks: restitution {}{}", roughness_text(surfaces.disks), walls);
-}
-
-std::string physics_text(const Scene& scene) {
-  const Physics& p = scene.physics;
-  std::string text = gravity_text(p.gravity);
-  const bool elastic = p.restitution == 1.0 && !p.law.dissipates();
-  text += !elastic ? fmt::format("restitution {}", restitutions_text(scene)) : "elastic collisions";
-  const std::string walls = walls_text(scene.box);
-  text += elastic && walls == ", 1 at walls" ? ", at walls too" : walls;
-  text += moving_walls_text(scene);
-  text += surfaces_text(p.surfaces);
-  if (scene.box.shear.acts()) text += fmt::format("; a shear flow of rate {:g}", scene.box.shear.rate);
-  if (const auto& tc = p.collapse_contact_time) text += fmt::format("; the TC model, contact time {:g}", *tc);
-  if (p.diffusion > 0.0) {
-    text += fmt::format("; Brownian motion, D = {:g}{}", p.diffusion, p.accumulate ? ", accumulating velocity" : "");
-  }
-  if (const Thermostat& bath = p.thermostat; bath.acts()) {
-    text += fmt::format("; a thermostat ({}) at temperature {:g}, rate {:g}, kicks every {:g}",
-                        thermostat_names[static_cast<std::size_t>(bath.kind)], bath.temperature, bath.rate,
-                        kick_interval(scene));
-  }
-  for (const Source& source : scene.sources) text += fmt::format("; a source of {:g} disks per unit time", source.rate);
-  return text;
 }
 
 std::string method_text(const Scene& scene) {
@@ -221,58 +102,6 @@ std::string cost_text(const Scene& scene, const Findings& f) {
     text += fmt::format("; once disks lie in a pile, each makes about {:.0e} collisions in a unit of time", each);
   }
   return text;
-}
-
-std::string offer_text(const MethodOffer& offer, bool best) {
-  const std::string_view name = name_of(offer.method);
-  if (!offer.possible) return fmt::format("  {:<10}no: {}\n", name, offer.why);
-  const std::string dt = offer.dt > 0.0 ? fmt::format("dt = {:g}, ", offer.dt) : "";
-  const std::string error = offer.error > 0.0 ? fmt::format("{:.1e}", offer.error) : "rounding only";
-  return fmt::format("{}{:<10}{}error {}, about {} of one core: {}\n", best ? "> " : "  ", name, dt, error,
-                     duration_text(offer.seconds), offer.why);
-}
-
-// What the error is one of.
-const char* averages_of(const Scene& scene, const MethodChoice& choice) {
-  if (scene.physics.diffusion > 0.0) return "mean square displacement";
-  // Where disks come to rest, how often they still hit each other depends on the step: soft hits become load.
-  if (choice.scales.settles) return "energy lost; not collisions, of which a pile has as many as steps show";
-  return disks_dissipate(scene) ? "collision rate, pressure, cooling rate" : "collision rate, pressure";
-}
-
-// Which method and step an accuracy needs. Costs are those of the machine that core/load/method_rates.hpp was measured
-// on.
-std::string choice_text(const Scene& scene, double accuracy) {
-  const MethodChoice choice = choose_method(scene, accuracy);
-  std::string text =
-      fmt::format("for an error of {:g} in averages over disks and time ({}):\n", accuracy, averages_of(scene, choice));
-  for (std::size_t k = 0; k < choice.offers.size(); ++k) {
-    text += offer_text(choice.offers[k], static_cast<int>(k) == choice.best);
-  }
-  if (choice.offers.empty()) return text + fmt::format("  {}\n", choice.why);
-  if (choice.best < 0) return text + "  out of reach: ask for a larger error, or name a method and its dt\n";
-  const MethodOffer& best = choice.offers[static_cast<std::size_t>(choice.best)];
-  const std::string dt = best.dt > 0.0 ? fmt::format(" --dt {:g}", best.dt) : "";
-  const std::string automatic =
-      scene.box.shear.acts() ? "" : fmt::format(", or method = \"auto\", accuracy = {:g} in [run]", accuracy);
-  return text + fmt::format("  take it with --method {}{}{}\n", name_of(best.method), dt, automatic);
-}
-
-Json choice_json(const Scene& scene, double accuracy) {
-  const MethodChoice choice = choose_method(scene, accuracy);
-  Json j{{"accuracy", accuracy}, {"method", nullptr}, {"why", choice.why}};
-  for (std::size_t k = 0; k < choice.offers.size(); ++k) {
-    const MethodOffer& o = choice.offers[k];
-    const std::string_view name = name_of(o.method);
-    if (static_cast<int>(k) == choice.best) j["method"] = name;
-    j["offers"].push_back({{"method", name},
-                           {"possible", o.possible},
-                           {"dt", o.dt},
-                           {"error", o.error},
-                           {"cpu_s", o.seconds},
-                           {"why", o.why}});
-  }
-  return j;
 }
 
 struct Told {
@@ -356,7 +185,7 @@ const JsonKey<Told> check_keys[] = {
      "ranks, three at most; where the first runs all disks, why, as `alone`",
      [](const Told& t) -> Json { return ranks_json(t); }},
     {"choice", "", "only with `--accuracy`: an object with the method and step that it needs, and all `offers`",
-     [](const Told& t) -> Json { return t.accuracy ? choice_json(t.scene, *t.accuracy) : absent(); }},
+     [](const Told& t) -> Json { return t.accuracy ? offers_json(t.scene, *t.accuracy) : absent(); }},
 };
 
 // tried: were steps, and outputs?
@@ -399,7 +228,7 @@ std::string main_text(const Scene& scene, const Findings& f) {
 
 std::string check_text(const Scene& scene, const Findings& found, const std::optional<double>& accuracy) {
   const std::string hint = "  --accuracy 1e-3 says which method and dt that needs\n";
-  return main_text(scene, found) + (accuracy ? choice_text(scene, *accuracy) : hint);
+  return main_text(scene, found) + (accuracy ? offers_text(scene, *accuracy) : hint);
 }
 
 std::string check_json(const Scene& scene, const Findings& found, const std::optional<double>& accuracy) {
