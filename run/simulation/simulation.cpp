@@ -12,53 +12,17 @@
 #include "core/base/input_message.hpp"
 #include "core/disks/disk_columns.hpp"
 #include "core/disks/fastest_speed.hpp"
-#include "core/disks/place_slack.hpp"
 #include "core/disks/state_hash.hpp"
-#include "core/physics/boundary.hpp"
-#include "core/physics/obstacle_contact.hpp"
-#include "core/scene/scene_ranges.hpp"
 #include "core/scene/scene_text.hpp"
 #include "core/step/late_collisions.hpp"
-#include "core/step/source.hpp"
 #include "core/step/validity.hpp"
 #include "io/checkpoint/checkpoint_place.hpp"
 #include "io/files/output_file.hpp"
+#include "run/simulation/newcomer.hpp"
 
 namespace carom {
 
 namespace {
-
-void check_magnitude(const char* what, Dimension dimension, double value) {
-  if (in_range(dimension, value)) return;
-  fail_input(what, fmt::format("is {}", value), expected_range(dimension));
-}
-
-void check_size(const char* what, Dimension dimension, double value) {
-  check_magnitude(what, dimension, value);
-  if (!(value > 0.0)) fail_input(what, fmt::format("is {}", value), "expected a number above 0");
-}
-
-// One coordinate of a disk that is to lie inside the box, or touch its side in decimals, as those of a scene may.
-void check_coordinate(const char* what, double c, double radius, double size, bool periodic) {
-  const double slack = place_slack(radius, size);
-  if (!periodic && !(radius <= size / 2.0 + slack)) {
-    fail_input("radius", fmt::format("is {}", radius),
-               fmt::format("expected at most {}, half the box, for a disk that has to lie inside it", size / 2.0));
-  }
-  const bool inside = periodic ? c >= 0.0 && c < size : c >= radius - slack && c <= size - radius + slack;
-  if (!inside) {
-    fail_input(what, fmt::format("is {}", c),
-               periodic ? fmt::format("expected a number from 0 to below {}", size)
-                        : fmt::format("expected the whole disk inside the box, from {} to {}", radius, size - radius));
-  }
-}
-
-// box: with its sides where they are.
-bool is_beyond_moving_side(const Domain& box, const Disk& disk) {
-  return std::any_of(all_sides.begin(), all_sides.end(), [&](Side side) {
-    return box.moves(side) && reach_beyond_wall(side, disk.x, disk.y, disk.radius, box) > place_slack(box, disk.radius);
-  });
-}
 
 Scene scene_in(const Checkpoint& checkpoint, const std::string& name) {
   const RunRecord& record = checkpoint.record;
@@ -295,53 +259,11 @@ void Simulation::load(std::string_view bytes) {
   order_known_ = stepped_ = false;
 }
 
-void Simulation::check_newcomer(const Disk& disk) const {
-  const Domain& box = scene_.box;
-  check_size("radius", Dimension::length, disk.radius);
-  check_size("mass", Dimension::mass, disk.mass);
-  check_magnitude("vx", Dimension::speed, disk.vx);
-  check_magnitude("vy", Dimension::speed, disk.vy);
-  if (state().disks.spins()) check_magnitude("spin", Dimension::frequency, disk.spin);
-  // As of a scene's disks: in a sheared box images move besides, and larger disks could meet one more of them.
-  const double share = box.shear.acts() ? 0.125 : 0.25;
-  const auto check_axis = [&](const char* what, double size, bool periodic) {
-    if (!periodic || disk.radius <= share * size) return;
-    fail_input("radius", fmt::format("is {}", disk.radius),
-               fmt::format("expected at most {} of the periodic {}, {}",
-                           box.shear.acts() ? "an eighth (box.shear_rate)" : "a quarter", what, share * size));
-  };
-  check_axis("width", box.width, box.periodic_x());
-  check_axis("height", box.height, box.periodic_y());
-  check_coordinate("x", disk.x, disk.radius, box.width, box.periodic_x());
-  check_coordinate("y", disk.y, disk.radius, box.height, box.periodic_y());
-  if (state().next_id >= most_disks) fail_input("disk", "has no id left", "expected fewer disks");
-}
-
 std::optional<DiskId> Simulation::add(Disk disk) {
   const FloatEnvironment environment;
   check_not_lost();
-  check_newcomer(disk);
-  const Disks& present = state().disks;
-  const Domain box = box_at(scene_.box, state().time);
-  bool met = is_beyond_moving_side(box, disk);
-  const double reach = disk.radius + largest_radius(present);
-  visit_near()({disk.x, disk.y}, reach, reach,
-               [&](std::size_t i) { met = met || meets(present, box, disk, i, i + 1); });
-  const auto meet_fixed = [&](std::uint32_t k, Vec2) {
-    const Obstacle& fixed = (*fixed_)[k];
-    const double distance2 = nearest_distance2({disk.x - fixed.x, disk.y - fixed.y}, scene_.box);
-    met = met || touches(distance2, disk.radius + fixed.radius);
-  };
-  if (fixed_) {
-    fixed_->visit({disk.x - disk.radius, disk.y - disk.radius}, {disk.x + disk.radius, disk.y + disk.radius},
-                  meet_fixed);
-  }
-  const std::vector<WallMotion> motions = motions_of(scene_);
-  for (const Obstacle& before : state().obstacles) {
-    const Obstacle o = at_time(before, motions, state().time, box);
-    met = met || (o.is_segment() && gap_to(o, disk.x, disk.y, disk.radius, scene_.box).beyond >= 0.0);
-  }
-  if (met) return std::nullopt;
+  check_newcomer(scene_, state(), disk);
+  if (!has_room(scene_, state(), disk, visit_near(), fixed_.get())) return std::nullopt;
   disk.id = state().next_id;
   if (!state().disks.spins()) disk.spin = 0.0;
   change({Edit::Kind::add, disk});
@@ -364,8 +286,7 @@ bool Simulation::remove(DiskId id) {
 }
 
 bool Simulation::set_velocity(DiskId id, Vec2 velocity) {
-  check_magnitude("vx", Dimension::speed, velocity.x);
-  check_magnitude("vy", Dimension::speed, velocity.y);
+  check_velocity(velocity);
   const std::optional<std::size_t> i = find(id);
   if (!i) return false;
   Edit edit{Edit::Kind::set_velocity, {}, *i};

@@ -121,7 +121,6 @@ class Simulation {
   void make_step();
   VisitNear visit_near() const;
   QueryScene query_scene() const;
-  void check_newcomer(const Disk& disk) const;
 
   Scene scene_;
   std::string scene_text_;
