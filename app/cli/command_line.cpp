@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <system_error>
 
 #include "app/cli/command_options.hpp"
@@ -66,6 +68,14 @@ void describe_run(CLI::App* run, OptionWords& words) {
   add_value(run, "-o,--output", words.folder, "DIR", "folder for the results; default out/<name of the scene>");
   add_run_options(run, words, "parallel");
   run->footer(early_stop);
+}
+
+void describe_check(CLI::App* check, OptionWords& words) {
+  add_scene_options(check, words);
+  add_value(check, "--accuracy", words.accuracy, "X",
+            "say which method and dt keep the error of averages (collision rate, pressure) below X");
+  add_value(check, "--ranks", words.ranks, "N", "memory and messages of each of so many processes as well");
+  check->add_flag("--json", words.json, "print the result as JSON");
 }
 
 void describe_resume(CLI::App* resume, OptionWords& words) {
@@ -146,49 +156,66 @@ void describe_chart(CLI::App* chart, OptionWords& words) {
       "See docs/chart.md.");
 }
 
+void describe_docs(CLI::App* docs, OptionWords& words) {
+  docs->add_option("PAGE", words.first, "scene: every key of a scene, column of series.csv and key of --json")
+      ->type_name("");
+}
+
+template <auto options_of>
+Command command_of(const OptionWords& words) {
+  return options_of(words);
+}
+
+// A new command is a row here.
+struct CommandRow {
+  const char* name;
+  const char* help;
+  void (*describe)(CLI::App* command, OptionWords& words);
+  Command (*read)(const OptionWords& words);
+};
+
+constexpr CommandRow commands[] = {
+    {"run", "run a scene", describe_run, command_of<run_options>},
+    {"check", "read a scene and say what it would model, and at what cost", describe_check, command_of<check_options>},
+    {"resume", "go on from a checkpoint, bit for bit as if never stopped", describe_resume, command_of<resume_options>},
+    {"compare", "two outputs: the same bits, or where and by how much they differ", describe_compare,
+     command_of<compare_options>},
+    {"render", "a movie or a picture from a trajectory", describe_render, command_of<render_options>},
+    {"view", "one page that plays a run in any browser", describe_view, command_of<view_options>},
+    {"sweep", "run a scene for every combination of values and seeds", describe_sweep, command_of<sweep_options>},
+    {"chart", "the speed-accuracy chart of all methods, from runs made now", describe_chart, command_of<chart_options>},
+    {"docs", "print a page of the documentation that is made from the program", describe_docs,
+     command_of<docs_options>},
+};
+
+void add_commands(CLI::App& app, OptionWords& words) {
+  for (const CommandRow& row : commands) {
+    CLI::App* const command = app.add_subcommand(row.name, row.help);
+    command->allow_extras();
+    row.describe(command, words);
+    // --strict=0 would be no --strict.
+    for (CLI::Option* const option : command->get_options()) option->disable_flag_override();
+  }
+}
+
+Command read_command(const CLI::App* command, const OptionWords& words) {
+  check_leftovers(command);
+  const auto* const row = std::find_if(std::begin(commands), std::end(commands),
+                                       [&](const CommandRow& r) { return r.name == command->get_name(); });
+  return row->read(words);
+}
+
 }  // namespace
 
 Command parse_command_line(int given, const char* const* given_words) {
   const std::vector<const char*> checked = checked_words(given, given_words);
-  const int argc = static_cast<int>(checked.size());
-  const char* const* const argv = checked.data();
   OptionWords words;
   CLI::App app("Carom simulates hard disks in a rectangle.", "carom");
   app.set_version_flag("--version", std::string("carom ") + build_version());
   app.require_subcommand(1);
-  CLI::App* const run = app.add_subcommand("run", "run a scene");
-  CLI::App* const check = app.add_subcommand("check", "read a scene and say what it would model, and at what cost");
-  CLI::App* const resume = app.add_subcommand("resume", "go on from a checkpoint, bit for bit as if never stopped");
-  CLI::App* const compare =
-      app.add_subcommand("compare", "two outputs: the same bits, or where and by how much they differ");
-  CLI::App* const render = app.add_subcommand("render", "a movie or a picture from a trajectory");
-  CLI::App* const view = app.add_subcommand("view", "one page that plays a run in any browser");
-  CLI::App* const sweep = app.add_subcommand("sweep", "run a scene for every combination of values and seeds");
-  CLI::App* const chart = app.add_subcommand("chart", "the speed-accuracy chart of all methods, from runs made now");
-  CLI::App* const docs = app.add_subcommand("docs", "print a page of the documentation that is made from the program");
-  for (CLI::App* const command : {run, check, resume, compare, render, view, sweep, chart, docs}) {
-    command->allow_extras();
-  }
-  describe_run(run, words);
-  add_scene_options(check, words);
-  add_value(check, "--accuracy", words.accuracy, "X",
-            "say which method and dt keep the error of averages (collision rate, pressure) below X");
-  add_value(check, "--ranks", words.ranks, "N", "memory and messages of each of so many processes as well");
-  check->add_flag("--json", words.json, "print the result as JSON");
-  describe_resume(resume, words);
-  describe_compare(compare, words);
-  describe_render(render, words);
-  describe_view(view, words);
-  describe_sweep(sweep, words);
-  describe_chart(chart, words);
-  docs->add_option("PAGE", words.first, "scene: every key of a scene, column of series.csv and key of --json")
-      ->type_name("");
-  for (CLI::App* const command : {run, check, resume, compare, render, view, sweep, chart, docs}) {
-    // --strict=0 would be no --strict.
-    for (CLI::Option* const option : command->get_options()) option->disable_flag_override();
-  }
+  add_commands(app, words);
   try {
-    app.parse(argc, argv);
+    app.parse(static_cast<int>(checked.size()), checked.data());
   } catch (const CLI::CallForVersion&) {
     return TextRequest{fmt::format("carom {}\n", build_version())};
   } catch (const CLI::Success&) {
@@ -197,16 +224,7 @@ Command parse_command_line(int given, const char* const* given_words) {
   } catch (const CLI::ParseError& error) {
     fail_as_one_line(error);
   }
-  check_leftovers(app.get_subcommands().front());
-  if (run->parsed()) return run_options(words);
-  if (check->parsed()) return check_options(words);
-  if (resume->parsed()) return resume_options(words);
-  if (compare->parsed()) return compare_options(words);
-  if (view->parsed()) return view_options(words);
-  if (sweep->parsed()) return sweep_options(words);
-  if (chart->parsed()) return chart_options(words);
-  if (docs->parsed()) return docs_options(words);
-  return render_options(words);
+  return read_command(app.get_subcommands().front(), words);
 }
 
 Scene load_scene_as_told(const std::string& path, const SceneChanges& changes) {
