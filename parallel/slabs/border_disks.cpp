@@ -5,7 +5,6 @@
 #include <numeric>
 #include <vector>
 
-#include "parallel/ranks/message.hpp"
 #include "parallel/slabs/moving_disks.hpp"
 
 namespace carom {
@@ -49,13 +48,8 @@ BorderDisks disks_at_borders(Ranks& ranks, const Slab& slab, const Domain& box, 
   std::iota(all.begin(), all.end(), 0U);
   SeenBeyond seen;
   find_seen_beyond(slab, box, own, all, reach, excursion, seen);
-  Bytes to_below;
-  Bytes to_above;
-  put_all(to_below, seen.below);
-  put_all(to_above, seen.above);
-  const auto [below, above] = ranks.exchange(to_below, to_above);
-  return {each_once(both_of(std::move(seen.below), seen.above)),
-          each_once(both_of(MessageReader(below).get_all<Disk>(), MessageReader(above).get_all<Disk>()))};
+  const SeenBeyond theirs = exchange_seen(ranks, seen);
+  return {each_once(both_of(std::move(seen.below), seen.above)), each_once(both_of(theirs.below, theirs.above))};
 }
 
 bool is_within_neighbours(const SlabCut& cut, const Domain& box, double reach, double excursion) {

@@ -4,6 +4,7 @@
 
 #include "core/physics/disk_pair.hpp"
 #include "parallel/cells/nearby_runs.hpp"
+#include "parallel/ranks/message.hpp"
 
 namespace carom {
 
@@ -95,6 +96,15 @@ void find_seen_beyond(const Slab& slab, const Domain& box, const Disks& disks, c
     if (slab.has_lower && b.lower >= -depth) seen.below.push_back(disk_at(disks, i));
     if (slab.has_upper && b.upper >= -depth) seen.above.push_back(disk_at(disks, i));
   }
+}
+
+SeenBeyond exchange_seen(Ranks& ranks, const SeenBeyond& seen) {
+  Bytes to_below;
+  Bytes to_above;
+  put_all(to_below, seen.below);
+  put_all(to_above, seen.above);
+  const auto [below, above] = ranks.exchange(to_below, to_above);
+  return {MessageReader(below).get_all<Disk>(), MessageReader(above).get_all<Disk>()};
 }
 
 void find_crossing_pairs(const Disks& d, const Domain& box, const GhostDisks& ghosts, const CellList& cells,

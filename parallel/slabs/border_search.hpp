@@ -8,6 +8,7 @@
 #include "core/disks/disks.hpp"
 #include "core/disks/domain.hpp"
 #include "core/disks/pair.hpp"
+#include "parallel/ranks/ranks.hpp"
 #include "parallel/slabs/ghost_disks.hpp"
 #include "parallel/slabs/slab_cut.hpp"
 #include "parallel/stepping/coarse_positions.hpp"
@@ -43,6 +44,9 @@ struct SeenBeyond {
 };
 void find_seen_beyond(const Slab& slab, const Domain& box, const Disks& disks, const std::vector<std::uint32_t>& near,
                       double largest_radius, double excursion, SeenBeyond& seen);
+
+// Sends them to the neighbours, and returns what these have sent: the disks of the rank below, and of that above.
+SeenBeyond exchange_seen(Ranks& ranks, const SeenBeyond& seen);
 
 // The pairs of a rank's own disk and a ghost that touch or overlap, own disk first. furthest: FoundContacts::furthest
 // of the search among own disks.

@@ -46,13 +46,8 @@ bool SlabStepping::presses_disks_of_others(double excursion, double slack) {
   if (excursion <= room_beyond(cut_, largest_radius_)) {
     std::vector<std::uint32_t>& near = displaced_.all;
     find_seen_beyond(slab_, scene_.box, state_.disks, near, largest_radius_, excursion, seen_);
-    Bytes to_below;
-    Bytes to_above;
-    put_all(to_below, seen_.below);
-    put_all(to_above, seen_.above);
-    const auto [below, above] = ranks_.exchange(to_below, to_above);
-    return is_pressed_by(MessageReader(below).get_all<Disk>(), slack) ||
-           is_pressed_by(MessageReader(above).get_all<Disk>(), slack);
+    const SeenBeyond theirs = exchange_seen(ranks_, seen_);
+    return is_pressed_by(theirs.below, slack) || is_pressed_by(theirs.above, slack);
   }
   // So far that they may touch disks beyond the next slab: all ranks ask about all of them.
   auto most = static_cast<double>(displaced_.all.size());

@@ -232,13 +232,9 @@ void SlabStepping::see_neighbours() {
   ghosts_.begin(d.size());
   if (ranks_.count() > 1 && !cells_.grid.levels.empty()) {
     find_seen_beyond(slab_, scene_.box, d, near_, largest_radius_, excursion_, seen_);
-    Bytes to_below;
-    Bytes to_above;
-    put_all(to_below, seen_.below);
-    put_all(to_above, seen_.above);
-    const auto [below, above] = ranks_.exchange(to_below, to_above);
-    ghosts_.add(MessageReader(below).get_all<Disk>(), lower_border, columns_, d);
-    ghosts_.add(MessageReader(above).get_all<Disk>(), upper_border, columns_, d);
+    const SeenBeyond theirs = exchange_seen(ranks_, seen_);
+    ghosts_.add(theirs.below, lower_border, columns_, d);
+    ghosts_.add(theirs.above, upper_border, columns_, d);
   }
   if (found_.buffers.size() <= found_.used) found_.buffers.resize(found_.used + 1);
   std::vector<Pair>& crossing = found_.buffers[found_.used++];
