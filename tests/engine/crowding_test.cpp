@@ -10,17 +10,11 @@
 
 #include "parallel/cells/cell_grid.hpp"
 #include "parallel/stepping/stepping_cells.hpp"
+#include "tests/support/disks_by_hand.hpp"
 #include "tests/support/draws.hpp"
 
 namespace carom {
 namespace {
-
-Domain box_of(double width, double height) {
-  Domain box;
-  box.width = width;
-  box.height = height;
-  return box;
-}
 
 template <class Place>
 Disks placed(std::size_t n, Place&& place) {
@@ -40,14 +34,14 @@ TEST(Crowding, CountsTheOthersOfADisk) {
   const Disks d = placed(64, [](std::size_t i) {
     return Vec2{i % 2 == 0 ? 5.0 : 15.0, 2.0 + 0.1 * static_cast<double>(i)};
   });
-  EXPECT_EQ(crowding(d, box_of(40.0, 40.0), d.size()), 31.0 / 4.0);
+  EXPECT_EQ(crowding(d, test::box_of(40.0, 40.0), d.size()), 31.0 / 4.0);
 }
 
 TEST(Crowding, AGasThatFillsTheBoxIsNotCrowded) {
   for (const std::size_t n : {std::size_t{41}, std::size_t{300}, std::size_t{2000}, std::size_t{100'000}}) {
     for (const double aspect : {1.0, 100.0, 0.01, 1e6, 1e-6, 1e9}) {
       test::Draws draws(n);
-      const Domain box = box_of(50.0 * aspect, 50.0);
+      const Domain box = test::box_of(50.0 * aspect, 50.0);
       EXPECT_EQ(crowding(placed(n,
                                 [&](std::size_t) {
                                   return Vec2{draws.in(0.0, box.width), draws.in(0.0, 50.0)};
@@ -60,12 +54,12 @@ TEST(Crowding, AGasThatFillsTheBoxIsNotCrowded) {
   const auto on_lattice = [](std::size_t i) {
     return Vec2{static_cast<double>(i % 60) + 0.5, static_cast<double>(i / 60) + 0.5};
   };
-  EXPECT_EQ(crowding(placed(3600, on_lattice), box_of(60.0, 60.0)), 1.0);
+  EXPECT_EQ(crowding(placed(3600, on_lattice), test::box_of(60.0, 60.0)), 1.0);
 }
 
 TEST(Crowding, FewDisksAreNotCrowded) {
-  EXPECT_EQ(crowding({}, box_of(1e6, 1.0)), 1.0);
-  EXPECT_EQ(crowding(placed(1, [](std::size_t) { return Vec2{}; }), box_of(1e6, 1e6)), 1.0);
+  EXPECT_EQ(crowding({}, test::box_of(1e6, 1.0)), 1.0);
+  EXPECT_EQ(crowding(placed(1, [](std::size_t) { return Vec2{}; }), test::box_of(1e6, 1e6)), 1.0);
 }
 
 // Disks in a share s of the box are 1 / s times as dense as in the mean.
@@ -75,10 +69,11 @@ TEST(Crowding, DisksInAShareOfTheBoxAreDenserByThatShare) {
       test::Draws draws(n);
       const double height = 1e6;
       const auto pile = [&](std::size_t) { return Vec2{draws.in(0.0, 30.0), draws.in(0.0, share * height)}; };
-      EXPECT_NEAR(crowding(placed(n, pile), box_of(30.0, height)) * share, 1.0, 0.15) << n << " disks at the bottom";
+      EXPECT_NEAR(crowding(placed(n, pile), test::box_of(30.0, height)) * share, 1.0, 0.15)
+          << n << " disks at the bottom";
       const double side = std::sqrt(share) * 1e4;
       const auto cluster = [&](std::size_t) { return Vec2{5e3 + draws.in(0.0, side), 2e3 + draws.in(0.0, side)}; };
-      EXPECT_NEAR(crowding(placed(n, cluster), box_of(1e4, 1e4)) * share, 1.0, 0.15) << n << " disks in a square";
+      EXPECT_NEAR(crowding(placed(n, cluster), test::box_of(1e4, 1e4)) * share, 1.0, 0.15) << n << " disks in a square";
     }
   }
 }
@@ -86,7 +81,7 @@ TEST(Crowding, DisksInAShareOfTheBoxAreDenserByThatShare) {
 // n(y) = exp(-y / l) / l in the mean over the disks: the integral of n^2, 1 / 2 l, over the mean density 1 / h.
 TEST(Crowding, OfAnAtmosphereIsHalfTheHeightInScaleHeights) {
   test::Draws draws(5);
-  const Domain box = box_of(40.0, 1000.0);
+  const Domain box = test::box_of(40.0, 1000.0);
   const auto atmosphere = [&](std::size_t) {
     return Vec2{draws.in(0.0, 40.0), std::min(1000.0, -10.0 * std::log(draws.in(0x1p-53, 1.0)))};
   };
@@ -95,7 +90,7 @@ TEST(Crowding, OfAnAtmosphereIsHalfTheHeightInScaleHeights) {
 
 TEST(Crowding, SomeOfTheDisksTellWhereTheyAreAllOverThatPart) {
   test::Draws draws(6);
-  const Domain box = box_of(100.0, 100.0);
+  const Domain box = test::box_of(100.0, 100.0);
   const Disks lower = placed(10'000, [&](std::size_t) { return Vec2{draws.in(0.0, 100.0), draws.in(0.0, 50.0)}; });
   EXPECT_NEAR(crowding(lower, box), 2.0, 0.1);
   EXPECT_EQ(crowding(lower, box, 20'000), 1.0);
@@ -105,7 +100,7 @@ TEST(Crowding, SomeOfTheDisksTellWhereTheyAreAllOverThatPart) {
 TEST(Crowding, GivesCellsToDisksWhereTheyAre) {
   test::Draws draws(7);
   constexpr std::size_t n = 2000;
-  const Domain box = box_of(50.0, 2000.0);
+  const Domain box = test::box_of(50.0, 2000.0);
   const Disks pile = placed(n, [&](std::size_t) { return Vec2{draws.in(0.0, 50.0), draws.in(0.0, 50.0)}; });
   CellGrid grid;
   make_grid(box, 0.5, {n}, grid, grid_margin, crowding(pile, box));
@@ -121,7 +116,7 @@ TEST(Crowding, GivesTimeSteppingFewerCells) {
   test::Draws draws(8);
   constexpr std::size_t n = 2000;
   for (const double height : {2000.0, 5000.0, 1e5}) {
-    const Domain box = box_of(50.0, height);
+    const Domain box = test::box_of(50.0, height);
     const Disks pile = placed(n, [&](std::size_t) { return Vec2{draws.in(0.0, 50.0), draws.in(0.0, 50.0)}; });
     std::vector<std::size_t> count;
     CellGrid grid;

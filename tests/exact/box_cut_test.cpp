@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "parallel/exact/disks_of_parts.hpp"
+#include "tests/support/disks_by_hand.hpp"
 
 namespace carom {
 namespace {
@@ -23,14 +24,6 @@ Disks spread(std::size_t count, double width, double height) {
   return d;
 }
 
-Domain box_of(double width, double height, SideKind ends) {
-  Domain box;
-  box.width = width;
-  box.height = height;
-  box.sides = {ends, ends, ends, ends};
-  return box;
-}
-
 std::vector<std::size_t> parts_at(const BoxCut& cut, Vec2 at) {
   std::vector<std::size_t> parts;
   cut.visit_parts_at(at, [&](std::size_t part) { parts.push_back(part); });
@@ -39,8 +32,8 @@ std::vector<std::size_t> parts_at(const BoxCut& cut, Vec2 at) {
 
 TEST(BoxCut, PartsHaveAboutAsManyDisks) {
   const Disks d = spread(3001, 10.0, 40.0);
-  for (const SideKind ends : {SideKind::periodic, SideKind::wall}) {
-    const BoxCut cut = cut_box(d, box_of(10.0, 40.0, ends), {1, 4}, 1.5);
+  for (const test::Periodic along : {test::Periodic::both, test::Periodic::none}) {
+    const BoxCut cut = cut_box(d, test::box_of(10.0, 40.0, along), {1, 4}, 1.5);
     ASSERT_EQ(cut.parts(), 4U);
     std::vector<std::size_t> own(4, 0);
     for (std::size_t k = 0; k < d.size(); ++k) ++own[cut.part_at({d.x[k], d.y[k]})];
@@ -51,15 +44,15 @@ TEST(BoxCut, PartsHaveAboutAsManyDisks) {
 
 TEST(BoxCut, HasTheSameWorkOnBothSidesOfALine) {
   const Disks d = spread(4000, 40.0, 10.0);
-  const BoxCut halves = cut_box(d, box_of(40.0, 10.0, SideKind::wall), {2, 1}, 1.0);
+  const BoxCut halves = cut_box(d, test::box_of(40.0, 10.0), {2, 1}, 1.0);
   EXPECT_NEAR(halves.x.high(0), 20.0, 0.1);
   // Three times as much in the right half: two thirds of its disks have as much as the others.
-  const BoxCut weighted = cut_box(d, box_of(40.0, 10.0, SideKind::wall), {2, 1}, 1.0, {halves, {1.0, 3.0}});
+  const BoxCut weighted = cut_box(d, test::box_of(40.0, 10.0), {2, 1}, 1.0, {halves, {1.0, 3.0}});
   EXPECT_NEAR(weighted.x.high(0), 20.0 + 20.0 / 3.0, 0.2);
 }
 
 TEST(BoxCut, HalosLieBehindTheEnds) {
-  const BoxCut cut = cut_box(spread(3001, 40.0, 10.0), box_of(40.0, 10.0, SideKind::periodic), {2, 1}, 3.0);
+  const BoxCut cut = cut_box(spread(3001, 40.0, 10.0), test::box_of(40.0, 10.0, test::Periodic::both), {2, 1}, 3.0);
   const double line = cut.x.high(0);
   EXPECT_EQ(parts_at(cut, {line + 2.9, 5.0}), (std::vector<std::size_t>{1, 0}));
   EXPECT_EQ(parts_at(cut, {line + 3.1, 5.0}), (std::vector<std::size_t>{1}));
@@ -71,7 +64,7 @@ TEST(BoxCut, HalosLieBehindTheEnds) {
 }
 
 TEST(BoxCut, AtACornerThreePartsHaveAGhost) {
-  const BoxCut cut = cut_box(spread(3001, 40.0, 40.0), box_of(40.0, 40.0, SideKind::periodic), {3, 3}, 3.0);
+  const BoxCut cut = cut_box(spread(3001, 40.0, 40.0), test::box_of(40.0, 40.0, test::Periodic::both), {3, 3}, 3.0);
   ASSERT_EQ(cut.parts(), 9U);
   const double x = cut.x.high(0), y = cut.y.high(0);
   EXPECT_EQ(parts_at(cut, {x - 1.0, y - 1.0}), (std::vector<std::size_t>{0, 1, 3, 4}));
@@ -81,10 +74,10 @@ TEST(BoxCut, AtACornerThreePartsHaveAGhost) {
 }
 
 TEST(BoxCut, WallsHaveNoHalos) {
-  const BoxCut cut = cut_box(spread(1000, 10.0, 40.0), box_of(10.0, 40.0, SideKind::wall), {1, 2}, 3.0);
+  const BoxCut cut = cut_box(spread(1000, 10.0, 40.0), test::box_of(10.0, 40.0), {1, 2}, 3.0);
   EXPECT_EQ(parts_at(cut, {5.0, 39.0}), (std::vector<std::size_t>{1}));
   EXPECT_EQ(parts_at(cut, {5.0, 1.0}), (std::vector<std::size_t>{0}));
-  const BoxCut five = cut_box(spread(3001, 40.0, 10.0), box_of(40.0, 10.0, SideKind::wall), {5, 1}, 3.0);
+  const BoxCut five = cut_box(spread(3001, 40.0, 10.0), test::box_of(40.0, 10.0), {5, 1}, 3.0);
   EXPECT_EQ(parts_at(five, {five.x.low(2) + 1.0, 5.0}), (std::vector<std::size_t>{2, 1}));
   EXPECT_EQ(parts_at(five, {five.x.high(2) - 1.0, 5.0}), (std::vector<std::size_t>{2, 3}));
   // Rounding may lead a disk out.
@@ -94,7 +87,7 @@ TEST(BoxCut, WallsHaveNoHalos) {
 
 TEST(BoxCut, PiecesAreNotNarrowerThanHalos) {
   const Disks d = spread(1000, 10.0, 40.0);
-  const BoxCut cut = cut_box(d, box_of(10.0, 40.0, SideKind::wall), {64, 64}, 6.0);
+  const BoxCut cut = cut_box(d, test::box_of(10.0, 40.0), {64, 64}, 6.0);
   EXPECT_EQ(cut.x.pieces(), 1U);
   EXPECT_LE(cut.y.pieces(), 6U);
   for (std::size_t k = 0; k < cut.y.pieces(); ++k) EXPECT_GE(cut.y.width(k), 6.0 - 1e-9);
@@ -110,10 +103,10 @@ std::vector<std::size_t> neighbours_of(const BoxCut& cut, std::size_t part) {
 
 TEST(BoxCut, NeighboursAreThoseAtSidesAndCorners) {
   const Disks d = spread(3001, 40.0, 40.0);
-  const BoxCut walls = cut_box(d, box_of(40.0, 40.0, SideKind::wall), {3, 3}, 3.0);
+  const BoxCut walls = cut_box(d, test::box_of(40.0, 40.0), {3, 3}, 3.0);
   EXPECT_EQ(neighbours_of(walls, 0), (std::vector<std::size_t>{1, 3, 4}));
   EXPECT_EQ(neighbours_of(walls, 4), (std::vector<std::size_t>{0, 1, 2, 3, 5, 6, 7, 8}));
-  const BoxCut ring = cut_box(d, box_of(40.0, 40.0, SideKind::periodic), {2, 3}, 3.0);
+  const BoxCut ring = cut_box(d, test::box_of(40.0, 40.0, test::Periodic::both), {2, 3}, 3.0);
   EXPECT_EQ(neighbours_of(ring, 0), (std::vector<std::size_t>{1, 2, 3, 4, 5})) << "each once";
   const PartNeighbours of_first = ring.ends_of(0).neighbours;
   EXPECT_EQ(of_first.bit_towards(1, 0), of_first.bit_towards(-1, 0));
@@ -122,15 +115,15 @@ TEST(BoxCut, NeighboursAreThoseAtSidesAndCorners) {
 }
 
 TEST(BestPieces, HaveTheFewestGhosts) {
-  const Domain square = box_of(1000.0, 1000.0, SideKind::periodic);
+  const Domain square = test::box_of(1000.0, 1000.0, test::Periodic::both);
   const auto pieces = [](std::size_t parts, const Domain& box) {
     const PieceCounts best = best_pieces(parts, box, 8.0, 2.0);
     return std::pair(best.x, best.y);
   };
   EXPECT_EQ(pieces(2, square), std::pair(std::size_t{1}, std::size_t{2}));
   EXPECT_EQ(pieces(16, square), std::pair(std::size_t{4}, std::size_t{4}));
-  EXPECT_EQ(pieces(16, box_of(4000.0, 100.0, SideKind::wall)), std::pair(std::size_t{16}, std::size_t{1}));
-  EXPECT_EQ(pieces(13, box_of(200.0, 100.0, SideKind::wall)), std::pair(std::size_t{1}, std::size_t{1})) << "no room";
+  EXPECT_EQ(pieces(16, test::box_of(4000.0, 100.0)), std::pair(std::size_t{16}, std::size_t{1}));
+  EXPECT_EQ(pieces(13, test::box_of(200.0, 100.0)), std::pair(std::size_t{1}, std::size_t{1})) << "no room";
   EXPECT_NEAR(share_with_ghosts({4, 4}, square, 8.0), (1.0 + 64.0 / 1000.0) * (1.0 + 64.0 / 1000.0), 1e-12);
   EXPECT_EQ(share_with_ghosts({1, 1}, square, 8.0), 1.0);
 }
@@ -138,7 +131,7 @@ TEST(BestPieces, HaveTheFewestGhosts) {
 // As visit_parts_at says, one disk after the other.
 TEST(DisksOfParts, AreThoseOwnedAndThoseOfHalos) {
   const Disks d = spread(5003, 40.0, 40.0);
-  const BoxCut cut = cut_box(d, box_of(40.0, 40.0, SideKind::periodic), {3, 2}, 3.0);
+  const BoxCut cut = cut_box(d, test::box_of(40.0, 40.0, test::Periodic::both), {3, 2}, 3.0);
   std::vector<DisksOfPart> expected(cut.parts());
   for (std::uint32_t k = 0; k < d.size(); ++k) {
     const Vec2 at{d.x[k], d.y[k]};

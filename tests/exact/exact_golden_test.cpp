@@ -10,16 +10,8 @@
 namespace carom::exact_tests {
 namespace {
 
-Domain box_of(double width, double height, SideKind kind = SideKind::wall) {
-  Domain box;
-  box.width = width;
-  box.height = height;
-  box.sides.fill(kind);
-  return box;
-}
-
 TEST(ExactGolden, TwoDisksOfMassOneAndThree) {
-  const Scene scene = plain_scene(box_of(20, 20), 5.0);
+  const Scene scene = plain_scene(test::box_of(20, 20), 5.0);
   const State s = run_reference(scene, state_of({{5, 10.5, 1, 0, 0.5, 1, 0}, {8, 10, 0, 0, 0.5, 3, 0}}));
   EXPECT_EQ(s.counters.collisions, 1U);
   const double root = std::sqrt(0.75);
@@ -38,7 +30,7 @@ TEST(ExactGolden, CollisionsThatCountPi) {
   const Count digits[] = {3, 31, 314, 3141};
   double ratio = 1.0;
   for (const Count expected : digits) {
-    const Scene scene = plain_scene(box_of(1e6, 10), 2000.0);
+    const Scene scene = plain_scene(test::box_of(1e6, 10), 2000.0);
     const State s = run_reference(scene, state_of({{10, 5, 0, 0, 1, 1, 0}, {20, 5, -1, 0, 1, ratio, 0}}));
     EXPECT_EQ(s.counters.collisions + s.counters.wall_collisions, expected) << "mass ratio " << ratio;
     EXPECT_EQ(s.disks.vy[0], 0.0);
@@ -49,7 +41,7 @@ TEST(ExactGolden, CollisionsThatCountPi) {
 TEST(ExactGolden, CradleOfTouchingDisks) {
   std::vector<Disk> disks{{5, 5, 1, 0, 0.5, 1, 0}};
   for (int k = 0; k < 5; ++k) disks.push_back({8.0 + k, 5, 0, 0, 0.5, 1, 0});
-  const Scene scene = plain_scene(box_of(40, 10), 4.0);
+  const Scene scene = plain_scene(test::box_of(40, 10), 4.0);
   const State s = run_reference(scene, state_of(disks));
   EXPECT_EQ(s.counters.collisions, 5U);
   for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(s.disks.vx[k], 0.0) << k;
@@ -61,7 +53,7 @@ TEST(ExactGolden, CradleOfTouchingDisks) {
 TEST(ExactGolden, CradleStruckByTwo) {
   std::vector<Disk> disks{{5, 5, 1, 0, 0.5, 1, 0}, {6, 5, 1, 0, 0.5, 1, 0}};
   for (int k = 0; k < 3; ++k) disks.push_back({8.0 + k, 5, 0, 0, 0.5, 1, 0});
-  const State s = run_reference(plain_scene(box_of(40, 10), 4.0), state_of(disks));
+  const State s = run_reference(plain_scene(test::box_of(40, 10), 4.0), state_of(disks));
   const double expected[] = {0, 0, 0, 1, 1};
   for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(s.disks.vx[k], expected[k]) << k;
 }
@@ -80,7 +72,7 @@ TEST(ExactGolden, HardRodsFollowSortedFreePaths) {
     speed[k] = 4.0 * (u.b - 0.5);
     disks.push_back({point[k] + static_cast<double>(k) + 0.5, 2, speed[k], 0, 0.5, 1, 0});
   }
-  const State s = run_reference(plain_scene(box_of(length, 4), t_end), state_of(disks));
+  const State s = run_reference(plain_scene(test::box_of(length, 4), t_end), state_of(disks));
   EXPECT_GT(s.counters.collisions, 10000U);
   const double span = length - n;
   std::vector<double> free(n);
@@ -100,7 +92,7 @@ TEST(ExactGolden, HardRodsFollowSortedFreePaths) {
 // the last good state is shortly before.
 TEST(ExactGolden, BouncingBallRestsInTime) {
   for (const double e : {0.5, 0.8}) {
-    Domain box = box_of(10, 10);
+    Domain box = test::box_of(10, 10);
     box.restitutions.fill(e);
     const Scene scene = plain_scene(box, 100.0, 2.0);
     const auto engine = make_reference_exact(scene, state_of({{5, 5, 0, 0, 1, 1, 0}}));
@@ -122,7 +114,7 @@ TEST(ExactGolden, BouncingBallRestsInTime) {
 
 // A few bounces before that, each leaves with e times the speed it came with.
 TEST(ExactGolden, BouncingBallKeepsItsParabolas) {
-  Domain box = box_of(10, 100);
+  Domain box = test::box_of(10, 100);
   box.restitutions.fill(0.5);
   // Down in 1, then flights of 1, 1/2, 1/4; 0.1 into the next.
   const State s = run_reference(plain_scene(box, 2.85, 8.0), state_of({{5, 5, 0, 0, 1, 1, 0}}));
@@ -172,8 +164,8 @@ TEST(ExactGolden, FloorMinusCeilingIsTheWeight) {
 
 // The virial counts |impulse| (r1 + r2): two disks that meet head on.
 TEST(ExactGolden, VirialOfOneCollision) {
-  const State s =
-      run_reference(plain_scene(box_of(20, 20), 4.0), state_of({{5, 10, 1, 0, 0.5, 1, 0}, {9, 10, -1, 0, 1.0, 3, 0}}));
+  const State s = run_reference(plain_scene(test::box_of(20, 20), 4.0),
+                                state_of({{5, 10, 1, 0, 0.5, 1, 0}, {9, 10, -1, 0, 1.0, 3, 0}}));
   EXPECT_EQ(s.counters.collisions, 1U);
   EXPECT_NEAR(s.counters.virial, 0.75 * 2.0 * 2.0 * 1.5, 1e-14);
 }

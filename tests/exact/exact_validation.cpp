@@ -95,27 +95,37 @@ INSTANTIATE_TEST_SUITE_P(Table, ExactEquationOfState,
                                          StateCase{0.30, 2.06326, 5e-5, 400}, StateCase{0.50, 4.105, 2e-3, 400},
                                          StateCase{0.67, 9.36234, 3e-5, 870}));
 
+// At these multiples of tau: temperature over that at the start, over what the law says of it, the mean of eight runs.
+template <class Law>
+std::vector<SampleMean> cooling_over_law(Scene scene, const std::vector<double>& times, double tau, const Law& law) {
+  std::vector<std::vector<double>> ratios(times.size());
+  for (scene.seed = 1; scene.seed <= 8; ++scene.seed) {
+    const auto engine = make_parallel_engine(scene, initial_state(scene), {1, 1});
+    const double before = energy_of(engine->state().disks, 0.0).kinetic;
+    Disks disks;
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      run_until(*engine, times[k] * tau);
+      const double t = engine->disks_at(times[k] * tau, disks);
+      ratios[k].push_back(energy_of(disks, 0.0).kinetic / before / law(t));
+    }
+  }
+  std::vector<SampleMean> means;
+  for (const std::vector<double>& of_runs : ratios) means.push_back(sample_mean(of_runs));
+  return means;
+}
+
 // T = T0 / (1 + t / tau)^2 while the gas stays uniform (Haff 1983): mean of eight runs, within 2 %, as far as
 // docs/reference_values.md says that it holds (eta = 0.1, e = 0.98, N = 1024, t / tau = 4.7), and on the way there.
 TEST(ExactHaff, CoolsAsItShould) {
   const double gamma0 = 4.0 * 0.236144 / std::sqrt(std::numbers::pi);
   const double e = 0.98;
   const double tau = 4.0 / ((1.0 - e * e) * gamma0);
-  const double times[] = {1.0, 2.0, 3.0, 4.7};
-  std::vector<double> ratios[4];
-  Scene scene = gas(1024, 0.1, 4.7 * tau, fmt::format("restitution = {}", e));
-  for (scene.seed = 1; scene.seed <= 8; ++scene.seed) {
-    const auto engine = make_parallel_engine(scene, initial_state(scene), {1, 1});
-    const double before = energy_of(engine->state().disks, 0.0).kinetic;
-    Disks disks;
-    for (int k = 0; k < 4; ++k) {
-      run_until(*engine, times[k] * tau);
-      const double t = engine->disks_at(times[k] * tau, disks) / tau;
-      ratios[k].push_back(energy_of(disks, 0.0).kinetic / before * (1.0 + t) * (1.0 + t));
-    }
-  }
-  for (int k = 0; k < 4; ++k) {
-    const SampleMean ratio = sample_mean(ratios[k]);
+  const std::vector<double> times{1.0, 2.0, 3.0, 4.7};
+  const Scene scene = gas(1024, 0.1, times.back() * tau, fmt::format("restitution = {}", e));
+  const std::vector<SampleMean> ratios =
+      cooling_over_law(scene, times, tau, [tau](double t) { return std::pow(1.0 + t / tau, -2.0); });
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const SampleMean& ratio = ratios[k];
     fmt::print("Haff, t / tau = {}: T over the law's {:.4f} +- {:.4f}\n", times[k], ratio.mean, ratio.standard_error());
     EXPECT_NEAR(ratio.mean, 1.0, 0.02) << "t / tau = " << times[k];
     EXPECT_LT(ratio.standard_error(), 0.007) << "too few runs to say anything";
@@ -148,21 +158,12 @@ TEST(ExactViscoelasticGas, CoolsSlowerThanHaffsLaw) {
   const double a = 0.02;
   const double rate = gamma0 * a * std::pow(4.0, 0.1) * std::tgamma(2.1);  // dT/dt = -rate T^1.6 in leading order
   const double tau = 1.0 / (0.6 * rate);
-  const double times[] = {1.0, 2.0, 4.0, 7.0};
-  std::vector<double> ratios[4];
-  Scene scene = gas(1024, 0.1, 7.0 * tau, fmt::format("restitution = {{ viscoelastic = {} }}", a));
-  for (scene.seed = 1; scene.seed <= 8; ++scene.seed) {
-    const auto engine = make_parallel_engine(scene, initial_state(scene), {1, 1});
-    const double before = energy_of(engine->state().disks, 0.0).kinetic;
-    Disks disks;
-    for (int k = 0; k < 4; ++k) {
-      run_until(*engine, times[k] * tau);
-      const double t = engine->disks_at(times[k] * tau, disks);
-      ratios[k].push_back(energy_of(disks, 0.0).kinetic / before / viscoelastic_temperature(gamma0, a, t));
-    }
-  }
-  for (int k = 0; k < 4; ++k) {
-    const SampleMean ratio = sample_mean(ratios[k]);
+  const std::vector<double> times{1.0, 2.0, 4.0, 7.0};
+  const Scene scene = gas(1024, 0.1, times.back() * tau, fmt::format("restitution = {{ viscoelastic = {} }}", a));
+  const std::vector<SampleMean> ratios =
+      cooling_over_law(scene, times, tau, [&](double t) { return viscoelastic_temperature(gamma0, a, t); });
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const SampleMean& ratio = ratios[k];
     const double haff = std::pow(1.0 + 0.5 * rate * times[k] * tau, -2.0) / std::pow(1.0 + times[k], -5.0 / 3.0);
     fmt::print("viscoelastic, t / tau = {}: T over the law's {:.4f} +- {:.4f}; Haff's law would have {:.3f}\n",
                times[k], ratio.mean, ratio.standard_error(), haff);

@@ -9,17 +9,10 @@
 #include "parallel/cells/cell_grid.hpp"
 #include "parallel/exact/cell_blocks.hpp"
 #include "parallel/exact/listed_cells.hpp"
+#include "tests/support/disks_by_hand.hpp"
 
 namespace carom {
 namespace {
-
-Domain box_of(double width, double height, SideKind ends) {
-  Domain box;
-  box.width = width;
-  box.height = height;
-  box.sides = {ends, ends, ends, ends};
-  return box;
-}
 
 std::uint32_t cell_after(std::uint32_t cell, std::uint32_t steps, std::uint32_t cells) {
   return (cell + steps) % cells;
@@ -59,8 +52,8 @@ TEST(StoredCells, AreSearchedAloneWhereAllAreStored) {
 // Between two places all cells are stored, one after the other, in the rows and columns of each level; outside of them
 // none, but for where all are.
 TEST(StoredCells, AreThoseBetweenTwoPlaces) {
-  for (const SideKind ends : {SideKind::wall, SideKind::periodic}) {
-    const Domain box = box_of(60.0, 40.0, ends);
+  for (const test::Periodic along : {test::Periodic::none, test::Periodic::both}) {
+    const Domain box = test::box_of(60.0, 40.0, along);
     for (const Vec2 low : {Vec2{-9.0, -7.0}, Vec2{12.3, 11.1}, Vec2{41.0, 27.0}}) {
       const Vec2 high{low.x + 22.0, low.y + 17.0};
       CellGrid grid;
@@ -80,7 +73,7 @@ TEST(StoredCells, AreThoseBetweenTwoPlaces) {
                       static_cast<std::uint32_t>(at - std::floor(from)));
           }
         };
-        const bool wraps = ends == SideKind::periodic;
+        const bool wraps = along == test::Periodic::both;
         const auto in_cells = [&](double at, double per_length, std::uint32_t cells) {
           return wraps ? at * per_length : std::clamp(at * per_length, 0.0, cells - 1.0);
         };

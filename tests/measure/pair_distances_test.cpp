@@ -13,14 +13,6 @@
 namespace carom {
 namespace {
 
-Disks strewn(test::Draws& draws, const Domain& box, std::size_t n) {
-  Disks disks;
-  for (std::size_t i = 0; i < n; ++i) {
-    append(disks, {draws.in(0.0, box.width), draws.in(0.0, box.height), 0.0, 0.0, 0.1, 1.0, static_cast<DiskId>(i)});
-  }
-  return disks;
-}
-
 bool far_from_walls(const Disks& d, std::size_t i, const Domain& box, double margin) {
   const bool x = box.periodic_x() || (d.x[i] >= margin && d.x[i] <= box.width - margin);
   const bool y = box.periodic_y() || (d.y[i] >= margin && d.y[i] <= box.height - margin);
@@ -62,7 +54,7 @@ TEST(PairDistances, CountsAreThoseOfAllPairsOnAnyNumberOfThreads) {
     Domain box{c.width, c.height};
     test::set_sides(box, c.left_right, c.bottom_top);
     for (const std::size_t n : {0U, 1U, 2U, 30U, 700U}) {
-      const Disks disks = strewn(draws, box, n);
+      const Disks disks = test::strewn(draws, box, n);
       const DistanceBins bins{c.r_max, 23, c.r_max + 0.1};
       const PairCounts expected = all_pairs(disks, box, bins);
       for (const int threads : {0, 1, 2, 5}) {
@@ -84,7 +76,7 @@ TEST(PairDistances, CountsOfVeryFewDisksAreThoseOfAllPairs) {
     const DistanceBins bins{c.r_max, 7, 0.0};
     for (std::size_t n = 2; n < 7; ++n) {
       for (int k = 0; k < 40; ++k) {
-        const Disks disks = strewn(draws, box, n);
+        const Disks disks = test::strewn(draws, box, n);
         EXPECT_EQ(count_pairs(disks, box, bins).counts, all_pairs(disks, box, bins).counts)
             << c.width << " x " << c.height << ", " << n << " disks";
       }
@@ -133,7 +125,7 @@ TEST(PairDistances, CountsInAShearedBoxAreThoseOfAllPairs) {
     const double r_max = 2.0;
     Domain box = test::box_of(draws.in(2.0, 5.0) * r_max, draws.in(2.0, 5.0) * r_max, test::Periodic::both);
     box.shear = {1.0, box.height, draws.in(-0.5, 0.5) * box.width};
-    const Disks disks = strewn(draws, box, 100);
+    const Disks disks = test::strewn(draws, box, 100);
     const DistanceBins bins{r_max, 9, 0.0};
     EXPECT_EQ(count_pairs(disks, box, bins).counts, all_pairs(disks, box, bins).counts)
         << box.width << " x " << box.height << ", offset " << box.shear.offset;
@@ -152,7 +144,7 @@ TEST(PairDistances, NothingCorrelatedGivesOne) {
     scene.analysis.pairs.bins = 12;
     scene.analysis.pairs.wall_margin = c.r_max + 0.1;
     AnalysisRecord record = empty_record(scene);
-    for (int k = 0; k < 200; ++k) take_sample(record, scene, strewn(draws, scene.box, 200), k, {}, run_in_order);
+    for (int k = 0; k < 200; ++k) take_sample(record, scene, test::strewn(draws, scene.box, 200), k, {}, run_in_order);
     const BinnedCurve g = pair_correlation_curve(record.pairs, scene.analysis);
     for (std::size_t k = 0; k < 12; ++k) {
       const auto pairs = static_cast<double>(record.pairs.counts[k]);
@@ -178,7 +170,7 @@ TEST(PairDistances, MarginsGoWithSidesThatMove) {
   AnalysisRecord record = empty_record(scene);
   for (int k = 0; k < 200; ++k) {
     const double t = 0.04 * k;
-    Disks disks = strewn(draws, scene.box, 200);
+    Disks disks = test::strewn(draws, scene.box, 200);
     const double left = 2.0 + 0.5 * t, right = 29.0 - t;
     for (double& x : disks.x) x = left + x / scene.box.width * (right - left);
     take_sample(record, scene, disks, t, {}, run_in_order);
@@ -199,7 +191,7 @@ TEST(PairDistances, GroupsHavePairsOfTheirOwn) {
   scene.analysis.pairs = {3.0, 10, 3.1};
   scene.analysis.pair_groups = {{"a", {0, 100}}, {"b", {250, 400}}, {"c", {400, 401}}};
   AnalysisRecord record = empty_record(scene);
-  const Disks disks = strewn(draws, scene.box, 500);
+  const Disks disks = test::strewn(draws, scene.box, 500);
   take_sample(record, scene, disks, 0.0, {}, run_in_order);
   take_sample(record, scene, disks, 1.0, {}, run_in_order);
   const std::vector<PartialCurve> curves = partial_curves(record, scene.analysis);

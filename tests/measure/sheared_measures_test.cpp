@@ -31,14 +31,6 @@ Domain sheared_box(double width, double height, double offset) {
   return box;
 }
 
-Disks strewn(test::Draws& draws, const Domain& box, std::size_t n) {
-  Disks disks;
-  for (std::size_t i = 0; i < n; ++i) {
-    append(disks, {draws.in(0.0, box.width), draws.in(0.0, box.height), 0.0, 0.0, 0.1, 1.0, static_cast<DiskId>(i)});
-  }
-  return disks;
-}
-
 // look(dx, dy) to the images of disk j from disk i in rows that are near, in each the nearest one along x.
 template <class Look>
 void for_each_image(const Disks& d, std::size_t i, std::size_t j, const Domain& box, const Look& look) {
@@ -60,7 +52,7 @@ TEST(ShearedMeasures, PairDistancesAreThoseOfAllImages) {
   for (const Shape& s : shapes) {
     for (const double share : offset_shares) {
       const Domain box = sheared_box(s.width, s.height, share * s.width);
-      const Disks d = strewn(draws, box, 200);
+      const Disks d = test::strewn(draws, box, 200);
       const DistanceBins bins{s.r_max, 23, 0.0};
       std::vector<Count> expected(bins.bins, 0);
       for (std::size_t i = 0; i < d.size(); ++i) {
@@ -85,7 +77,7 @@ TEST(LongShearedMeasures, BondOrderIsThatOfAllImages) {
     for (const double share : offset_shares) {
       for (const std::size_t n : {7U, 12U, 40U, 300U}) {
         const Domain box = sheared_box(s.width, s.height, share * s.width);
-        const Disks d = strewn(draws, box, n);
+        const Disks d = test::strewn(draws, box, n);
         const std::vector<Vec2> orders = bond_orders(d, box);
         ASSERT_EQ(orders.size(), n);
         for (std::size_t i = 0; i < n; ++i) {
@@ -117,7 +109,7 @@ TEST(ShearedMeasures, StructureFactorGoesByWavesThatImagesRepeat) {
   constexpr std::size_t waves = 40;
   for (const double share : offset_shares) {
     const Domain box = sheared_box(30.0, 20.0, share * 30.0);
-    const Disks d = strewn(draws, box, 60);
+    const Disks d = test::strewn(draws, box, 60);
     StructureFactor s{std::vector<double>(waves, 0.0), std::vector<double>(waves, 0.0), 0}, other = s;
     add_structure(s, d, box);
     for (std::size_t n = 1; n <= waves; ++n) {

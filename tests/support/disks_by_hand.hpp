@@ -50,6 +50,15 @@ inline Disks disks_of(const std::vector<Disk>& list) {
   return disks;
 }
 
+// Disks of radius 0.1 and mass 1 at rest, with centres anywhere in the box: they may overlap.
+inline Disks strewn(Draws& draws, const Domain& box, std::size_t n) {
+  Disks disks;
+  for (std::size_t i = 0; i < n; ++i) {
+    append(disks, {draws.in(0.0, box.width), draws.in(0.0, box.height), 0.0, 0.0, 0.1, 1.0, static_cast<DiskId>(i)});
+  }
+  return disks;
+}
+
 // Ids from 0 on, in the order of the list.
 inline State state_of(const std::vector<Disk>& list) {
   State state;
