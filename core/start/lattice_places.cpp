@@ -78,7 +78,9 @@ LatticePlaces::LatticePlaces(const Scene& scene, std::size_t group, double radiu
 void LatticePlaces::fill_circle(const Scene& scene, std::size_t group) {
   const PositionLaw& law = scene.groups[group].positions;
   const StartRegion& region = *law.region;
-  const CircleLattice lattice{law.kind == PositionLaw::Kind::hexagonal, region.radius - radius_, 2.0 * radius_};
+  // A disk that fills the circle in decimals may be wider by rounding.
+  const double reach = std::max(0.0, region.radius - radius_);
+  const CircleLattice lattice{law.kind == PositionLaw::Kind::hexagonal, reach, 2.0 * radius_};
   sites_ = circle_sites(lattice, count_);
   origin_ = region.centre;
   if (!sites_.empty()) return;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/base/input_message.hpp"
+#include "core/disks/place_slack.hpp"
 #include "core/scene/disk_group.hpp"
 #include "core/start/placement.hpp"
 #include "core/start/start_region.hpp"
@@ -45,7 +46,8 @@ PlacementRoom placement_room(const Domain& box, double radius, const StartRegion
   if (!spans_x(*region, box)) narrow(room.across, region->low.x + radius, region->high.x - radius);
   if (!spans_y(*region, box)) narrow(room.up, region->low.y + radius, region->high.y - radius);
   if (region->circle) {
-    const double reach = region->radius - radius;
+    // One disk may fill it in decimals, and rounding put its only place beside the centre.
+    const double reach = std::max(region->radius - radius, place_slack(box, radius));
     room.circle2 = reach * reach;
     room.middle = region->centre;
   }

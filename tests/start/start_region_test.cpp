@@ -217,6 +217,22 @@ TEST(StartRegion, ACircleMayTouchASideInDecimals) {
   }
 }
 
+// 0.1 + 0.2 is more than 0.3, and 0.9 - 0.3 + 0.3 more than 0.9, by the last bit.
+TEST(StartRegion, OneDiskMayFillACircleInDecimals) {
+  for (const char* positions : {"random", "square", "hexagonal"}) {
+    for (const char* radius : {"0.3", "0.30000000000000004"}) {
+      for (const char* centre : {"1.0", "1.7", "0.9"}) {
+        SCOPED_TRACE(fmt::format("{} {} {}", positions, radius, centre));
+        const Disks d = start_of(
+            replaced(scene_with(group(1, positions, fmt::format("region = {{ circle = [{}, 2.0, 0.3] }}\n", centre))),
+                     "radius = 0.5", fmt::format("radius = {}", radius)));
+        EXPECT_NEAR(d.x.at(0), std::stod(centre), 1e-12);
+        EXPECT_NEAR(d.y.at(0), 2.0, 1e-12);
+      }
+    }
+  }
+}
+
 TEST(StartRegion, BadOnesAreNamedByLineAndKey) {
   const auto region = [](const std::string& kind, const std::string& value) {
     return complaint(scene_with(group(40, kind, "region = " + value + "\n")));
