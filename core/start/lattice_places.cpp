@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/base/input_message.hpp"
+#include "core/disks/place_slack.hpp"
 #include "core/start/circle_lattice.hpp"
 #include "core/start/placement.hpp"
 #include "core/start/start_region.hpp"
@@ -29,10 +30,11 @@ LatticeRoom lattice_room(const Domain& box, const std::optional<StartRegion>& re
   return room;
 }
 
-// Fixed disks may be wider than the box. On a lattice their sites would then lie outside it.
-bool holds_disk(const Domain& box, double radius) {
-  return (box.periodic_x() || box.width * lattice_rounding >= 2.0 * radius) &&
-         (box.periodic_y() || box.height * lattice_rounding >= 2.0 * radius);
+// Fixed disks may be wider than the box. On a lattice their sites would then lie outside it. slack: by which a region
+// that one row of disks fills in decimals may be narrower; length.
+bool holds_disk(const Domain& box, double radius, double slack) {
+  return (box.periodic_x() || box.width + slack >= 2.0 * radius) &&
+         (box.periodic_y() || box.height + slack >= 2.0 * radius);
 }
 
 // The place nearest to c where the disk lies between sides at 0 and length; in the middle, where length is the disk's
@@ -65,7 +67,7 @@ LatticePlaces::LatticePlaces(const Scene& scene, std::size_t group, double radiu
   box_ = box;
   origin_ = origin;
   const std::string room = fmt::format("the {} of {} x {}", region ? "region" : "box", box.width, box.height);
-  if (!holds_disk(box, radius)) fail_lattice(scene, group, radius, room, 0);
+  if (!holds_disk(box, radius, place_slack(scene.box, radius))) fail_lattice(scene, group, radius, room, 0);
   const auto lattice =
       square ? square_lattice(box, count_, 2.0 * radius) : hexagonal_lattice(box, count_, 2.0 * radius);
   if (!lattice) {

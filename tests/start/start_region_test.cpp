@@ -233,6 +233,21 @@ TEST(StartRegion, OneDiskMayFillACircleInDecimals) {
   }
 }
 
+// Far from the corner decimals are rounded by more than 1e-12 of a small radius.
+TEST(StartRegion, OneRowMayFillARectangleInDecimals) {
+  for (const char* positions : {"random", "square", "hexagonal"}) {
+    for (const char* low : {"100000.1", "100000.3", "300000.2", "700000.1"}) {
+      SCOPED_TRACE(fmt::format("{} {}", positions, low));
+      const std::string region = fmt::format("region = [{}, 1.0, {:.1f}, 1.3]\n", low, std::stod(low) + 0.3);
+      const Disks d =
+          start_of(replaced(replaced(scene_with(group(1, positions, region)), "width = 40.0", "width = 1e6"),
+                            "radius = 0.5", "radius = 0.15"));
+      EXPECT_NEAR(d.x.at(0), std::stod(low) + 0.15, 1e-9);
+      EXPECT_NEAR(d.y.at(0), 1.15, 1e-12);
+    }
+  }
+}
+
 TEST(StartRegion, BadOnesAreNamedByLineAndKey) {
   const auto region = [](const std::string& kind, const std::string& value) {
     return complaint(scene_with(group(40, kind, "region = " + value + "\n")));
