@@ -9,6 +9,7 @@
 
 #include "core/base/check.hpp"
 #include "core/base/float_environment.hpp"
+#include "core/base/wall_clock.hpp"
 #include "core/measure/energy_gain.hpp"
 #include "core/scene/scene_output.hpp"
 #include "core/scene/scene_text.hpp"
@@ -111,6 +112,7 @@ class SceneRun {
 
  private:
   RunObserver observer();
+  void say_what_a_stop_waits_for();
   void take_news(bool silent);
   bool pulse(double seconds);
   void take_output_warnings() { tell_all(listener_, files_->outputs.take_warnings()); }
@@ -130,6 +132,8 @@ class SceneRun {
   Count disks_;                    // when it begins
   double step_s_ = 0.0;            // seconds in steps
   std::vector<std::string> told_;  // the warnings that the engine has raised
+  std::optional<WallClock::time_point> stop_seen_;
+  bool wait_told_ = false;
 };
 
 void SceneRun::take_news(bool silent) {
@@ -149,6 +153,19 @@ bool SceneRun::pulse(double seconds) {
   return go_on;
 }
 
+// Between two frames of a window there is no state to stop at: its start is gone, and frames that its end lacks could
+// not be made from there. Where there are millions, that takes a while.
+void SceneRun::say_what_a_stop_waits_for() {
+  constexpr double patience_s = 1.0;
+  if (wait_told_ || !keeper_.wants_stop()) return;
+  if (!stop_seen_) stop_seen_ = WallClock::now();
+  if (seconds_since(*stop_seen_) < patience_s) return;
+  wait_told_ = true;
+  tell(listener_.note, fmt::format("stops when the frames of this window are made, up to t = {:g}; another Ctrl-C, or "
+                                   "SIGINT, ends it at once",
+                                   engine_.progress().time));
+}
+
 RunObserver SceneRun::observer() {
   RunObserver observer;
   observer.go_on = [this] { return !keeper_.wants_stop(); };
@@ -160,6 +177,7 @@ RunObserver SceneRun::observer() {
       outputs.follow(engine_, disks.time());
       outputs.frame(disks, engine_.progress());
       take_output_warnings();
+      say_what_a_stop_waits_for();
     };
     if (goes_on_ && outputs.frames() > 0) observer.last_frame = outputs.last_time();
   }
@@ -168,6 +186,7 @@ RunObserver SceneRun::observer() {
       outputs.follow(engine_, disks.time());
       analysis->sample(disks, engine_.progress());
       take_output_warnings();
+      say_what_a_stop_waits_for();
     };
     if (!analysis->record().series.time.empty()) observer.last_sample = analysis->last_time();
   }

@@ -368,5 +368,30 @@ TEST_F(InterruptedRun, OptionsOfResumeAreKept) {
   EXPECT_EQ(summary("out")["time"], 22.0);
 }
 
+// One disk at rest: the first window is the run, and its frames take some seconds, after which the run is whole.
+TEST_F(LongInterruptedRun, AStopAmongMillionsOfFramesSaysWhatItWaitsFor) {
+  write("rest.toml", R"([box]
+width = 10.0
+height = 10.0
+[[disks]]
+count = 1
+positions = [[5.0, 5.0]]
+radius = 0.5
+mass = 1.0
+[run]
+t_end = 10.0
+[output]
+every = 5e-6
+series = true
+)");
+  const Outcome o = shell(
+      "$C run rest.toml -o out >/dev/null & P=$!; until [ -e out/carom-unfinished/series.csv ]; do sleep 0.01; done; "
+      "kill -TERM $P; wait $P");
+  EXPECT_EQ(o.status, 0);
+  EXPECT_EQ(o.err,
+            "carom: stops when the frames of this window are made, up to t = 10; another Ctrl-C, or SIGINT, ends it at "
+            "once\n");
+}
+
 }  // namespace
 }  // namespace carom
