@@ -13,6 +13,7 @@
 #include "core/base/random.hpp"
 #include "core/disks/obstacle_cells.hpp"
 #include "core/reference/reference_exact.hpp"
+#include "core/scene/disk_group.hpp"
 #include "core/start/placement_grid.hpp"
 
 namespace carom {
@@ -101,6 +102,24 @@ class Growth {
     progress_.final_packing_fraction = packing(squares);
     longest_flight_ = flight_travel * scene.growth.slowness;
     most_events_ = std::max(1.0, 0.5 * most_collisions * scene.growth.slowness * static_cast<double>(disks_));
+  }
+
+  // A disk that fills the room between two walls, but for rounding, has no play there: growth comes ever nearer to that
+  // size, and never to it.
+  void check_play() const {
+    constexpr double rounding = 1e-12;
+    const std::pair<bool, double> axes[] = {{box_.periodic_x(), box_.width}, {box_.periodic_y(), box_.height}};
+    for (std::size_t i = 0; i < target_.size(); ++i) {
+      if (fixed_[i] != 0) continue;
+      for (const auto& [periodic, length] : axes) {
+        if (periodic || 2.0 * target_[i] < (1.0 - rounding) * length) continue;
+        fail_input(place_in_group(scene_, group_of(scene_, static_cast<DiskId>(i)), "positions"),
+                   fmt::format("\"growth\" comes to no end where a disk fills the box from wall to wall: disk {} has "
+                               "the diameter {:g}, and the box is {:g} {}",
+                               i, 2.0 * target_[i], length, &length == &axes[0].second ? "wide" : "high"),
+                   "expected a larger box, smaller disks, or a lattice, \"square\" or \"hexagonal\"");
+      }
+    }
   }
 
   void place_small(const PlaceAtRandom& place) {
@@ -233,6 +252,7 @@ bool grows(const Scene& scene) {
 void place_by_growth(const Scene& scene, Disks& disks, const std::vector<Obstacle>& obstacles,
                      const PlaceAtRandom& place, const GrowthTools& tools) {
   Growth growth(scene, disks, obstacles, tools);
+  growth.check_play();
   growth.place_small(place);
   growth.grow();
   const Disks& grown = growth.disks();

@@ -42,7 +42,7 @@ bool grows(const Scene& scene);
 // in disks already, and inner walls; they stay as they are, and disks bounce off them. Velocities come from (seed,
 // Stream::growth_velocity, id) and are thrown away. Everything follows from counts and lengths, nothing from clocks.
 // Preconditions: entry i of disks has id i, radii are final. Throws InputError with the packing fraction reached when
-// growth stalls (jams), or after scene.growth.steps steps.
+// growth stalls (jams), or after scene.growth.steps steps; and at once where a disk fills the box from wall to wall.
 void place_by_growth(const Scene& scene, Disks& disks, const std::vector<Obstacle>& obstacles,
                      const PlaceAtRandom& place, const GrowthTools& tools);
 

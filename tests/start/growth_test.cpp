@@ -325,6 +325,21 @@ TEST(Growth, JamsWithAClearMessage) {
   EXPECT_THAT(test::complaint(text + "[growth]\nsteps = 5\n"), HasSubstr("\"growth\" ends at packing fraction 0."));
 }
 
+// Such a disk stays a little too small for ever. Across periodic sides it meets nothing, and a little play is enough.
+TEST(Growth, RefusesDisksThatFillTheBox) {
+  const auto said = [](const std::string& box, const std::string& radius) {
+    return test::complaint(text_of(box, group(3, "0.2") + group(2, radius)));
+  };
+  EXPECT_THAT(
+      said("width = 1.0\nheight = 11.0", "0.5"),
+      HasSubstr("disks.1.positions: \"growth\" comes to no end where a disk fills the box from wall to wall: disk "
+                "3 has the diameter 1, and the box is 1 wide; expected a larger box, smaller disks, or a "
+                "lattice"));
+  EXPECT_THAT(said("width = 11.0\nheight = 1.0", "0.5"), HasSubstr("and the box is 1 high; "));
+  EXPECT_EQ(said("width = 1.000001\nheight = 11.0", "0.5"), "");
+  EXPECT_EQ(said("width = 11.0\nheight = 2.0\nbottom = \"periodic\"\ntop = \"periodic\"", "0.5"), "");
+}
+
 // Each flight is a run of its own: crowded windows of one before do not count. One whose time stands still, as that of
 // disks that others enclose does, is a jam; the group that grows is blamed.
 TEST(Growth, JamsWhereTheTimeOfAFlightStandsStill) {
