@@ -1,8 +1,5 @@
 // Signals, limits and faults: what the program says, the status it ends with, and that carom resume loses nothing.
-#include <sys/resource.h>
-
 #include <csignal>
-#include <cstring>
 
 #include "io/checkpoint/checkpoint.hpp"
 #include "tests/support/program_support.hpp"
@@ -128,70 +125,6 @@ TEST_F(InterruptedRun, SigusrWritesOneAndTheRunGoesOn) {
   kill(run, SIGKILL);
   EXPECT_EQ(wait_for(run), -SIGKILL);
   EXPECT_EQ(carom("resume out --quiet --max-walltime 1e-9").status, 4);
-}
-
-// A state that takes minutes to grow.
-constexpr const char* slow_growth = R"([box]
-packing_fraction = 0.84
-[[disks]]
-count = 20000
-positions = "growth"
-radius = { uniform = [1.0, 3.0] }
-mass = 1.0
-velocities = { uniform = 1.0 }
-[growth]
-slowness = 100.0
-[run]
-t_end = 1.0
-[output]
-checkpoint = 1
-)";
-
-class InitialState : public InterruptedRun {
- protected:
-  // Has the process begun to catch the signal?
-  static bool catches(pid_t pid, int signal) {
-    std::ifstream status("/proc/" + std::to_string(pid) + "/status");
-    for (std::string line; std::getline(status, line);) {
-      if (line.starts_with("SigCgt:")) return ((std::stoull(line.substr(7), nullptr, 16) >> (signal - 1)) & 1U) != 0;
-    }
-    return false;
-  }
-};
-using LongInitialState = InitialState;
-
-TEST_F(InitialState, SignalsDoNotWaitForIt) {
-  write("slow.toml", slow_growth);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
-    const pid_t run = start({"run", "slow.toml", "-o", "out"});
-    while (!catches(run, signal) || !catches(run, SIGUSR1)) usleep(1000);
-    kill(run, SIGUSR1);
-    kill(run, signal);
-    EXPECT_EQ(wait_for(run), 4);
-    EXPECT_THAT(said(), HasSubstr(signal == SIGINT ? "stopped by SIGINT while the initial state was made; there is no "
-                                                     "checkpoint to go on from\n"
-                                                   : "stopped by SIG"));
-    EXPECT_FALSE(fs::exists(at("out")));
-  }
-}
-
-TEST_F(InitialState, ACheckpointThatIsWishedForEarlyDoesNoHarm) {
-  write("slow.toml", slow_growth);
-  const pid_t run = start({"run", "slow.toml", "-o", "out"});
-  while (!catches(run, SIGUSR1)) usleep(1000);
-  kill(run, SIGUSR1);
-  while (said().find("no checkpoint yet: the initial state is still being made\n") == std::string::npos) usleep(1000);
-  kill(run, SIGTERM);
-  EXPECT_EQ(wait_for(run), 4);
-}
-
-TEST_F(LongInitialState, TheWallTimeEndsItToo) {
-  write("slow.toml", slow_growth);
-  const Outcome o = carom("run slow.toml --quiet -o out --max-walltime 0.5");
-  EXPECT_EQ(o.status, 4);
-  EXPECT_EQ(
-      o.err,
-      "carom: stopped by --max-walltime while the initial state was made; there is no checkpoint to go on from\n");
 }
 
 TEST_F(InterruptedRun, WithoutFilesOfItsOwnItMakesAFolderForTheCheckpoint) {
