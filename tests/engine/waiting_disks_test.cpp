@@ -14,22 +14,13 @@
 #include "parallel/simulation.hpp"
 #include "tests/support/disks_by_hand.hpp"
 #include "tests/support/reference_run.hpp"
+#include "tests/support/source_by_hand.hpp"
 
 namespace carom {
 namespace {
 
-Source source_of(double rate, Vec2 low, Vec2 high) {
-  Source source;
-  source.rate = rate;
-  source.region_low = low;
-  source.region_high = high;
-  source.radius.value = 0.5;
-  source.mass.value = 1.0;
-  return source;
-}
-
 Source gas_source(double rate, Vec2 low, Vec2 high) {
-  Source source = source_of(rate, low, high);
+  Source source = test::source_in(low, high, rate, 0.5);
   source.velocities.kind = VelocityLaw::Kind::maxwell;
   source.velocities.temperature = 1.0;
   return source;
@@ -49,7 +40,7 @@ TEST(WaitingDisks, HaveManyPlacesToComeTo) {
 TEST(WaitingDisks, ComeWithinAQuarterOfTheTimeBetweenTwoAfterThereIsRoom) {
   Scene scene = test::scene_of(Method::exact, 4.0, 200.0, 0.0, 10.9);
   scene.physics.gravity = Gravity(0.0, 1.6);
-  scene.sources = {source_of(1.0, {2.0, 199.0}, {2.0, 199.0})};
+  scene.sources = {test::source_in({2.0, 199.0}, {2.0, 199.0}, 1.0, 0.5)};
   const auto engine = make_reference_engine(scene, test::state_of(scene, {}));
   while (engine->state().time < scene.run.t_end) {
     const double now = engine->state().time;
@@ -66,7 +57,7 @@ TEST(WaitingDisks, ComeWithinAQuarterOfTheTimeBetweenTwoAfterThereIsRoom) {
 TEST(WaitingDisks, EndNoWindowsInBetweenWhereManyWait) {
   for (const Count limit : {Count{5}, Count{2000}}) {
     Scene scene = test::scene_of(Method::exact, 4.0, 4.0, 0.0, 100.0);
-    scene.sources = {source_of(10.0, {2.0, 2.0}, {2.0, 2.0})};
+    scene.sources = {test::source_in({2.0, 2.0}, {2.0, 2.0}, 10.0, 0.5)};
     scene.sources[0].limit = limit;
     const State end = test::run(scene, test::state_of(scene, {{2.0, 2.0, 0.0, 0.0, 0.5, 1.0}}));
     EXPECT_EQ(end.counters.emitted, 0U);
@@ -87,7 +78,7 @@ std::set<std::pair<double, double>> places_tried(const Scene& scene, State& stat
 
 Scene of_one_source() {
   Scene scene = test::scene_of(Method::exact, 20.0, 20.0, 0.0, 100.0);
-  scene.sources = {source_of(1.0, {1.0, 1.0}, {19.0, 19.0})};
+  scene.sources = {test::source_in({1.0, 1.0}, {19.0, 19.0}, 1.0, 0.5)};
   return scene;
 }
 
@@ -138,7 +129,7 @@ TEST(WaitingDisks, AreTriedAtTheEndOfARunThatGoesOn) {
 // Only half of the region is further than a radius inside the walls.
 TEST(WaitingDisks, AreInsideTheBoxWhereverTheyAreTried) {
   Scene scene = test::scene_of(Method::exact, 20.0, 20.0, 0.0, 100.0);
-  scene.sources = {source_of(1.0, {0.0, 0.0}, {1.0, 20.0})};
+  scene.sources = {test::source_in({0.0, 0.0}, {1.0, 20.0}, 1.0, 0.5)};
   State state = test::state_of(scene, {});
   for (int k = 1; k <= 7; ++k) {
     for (const auto& [x, y] : places_tried(scene, state, k)) {
