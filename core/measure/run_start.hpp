@@ -12,10 +12,9 @@ struct RunStart {
   double time = 0.0;
   Energy energy;
   Momentum momentum;
+  double relative = 0.0;  // kinetic energy relative to the flow of a sheared box; of others, the kinetic energy
 };
 
-inline RunStart run_start(const State& state, const Scene& scene) {
-  return {state.disks.size(), state.time, energy_of(state.disks, scene.physics.gravity), momentum_of(state.disks)};
-}
+RunStart run_start(const State& state, const Scene& scene);
 
 }  // namespace carom

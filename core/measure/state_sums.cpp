@@ -35,7 +35,7 @@ StateSums StateTally::sums() const {
   StateSums sums = sums_;
   sums.at.energy = {kinetic_.value(), potential_.value(), rotational_.value()};
   sums.at.momentum = {px_.value(), py_.value(), magnitude_.value()};
-  sums.relative = box_.shear.acts() ? relative_.value() : kinetic_.value();
+  sums.at.relative = box_.shear.acts() ? relative_.value() : kinetic_.value();
   sums.hash = state_hash(static_cast<std::size_t>(sums.at.particles), hashes_);
   return sums;
 }

@@ -12,8 +12,7 @@
 namespace carom {
 
 struct StateSums {
-  RunStart at;            // of this state: disks, time, energy, momentum
-  double relative = 0.0;  // kinetic energy relative to the flow of a sheared box; of others, the kinetic energy
+  RunStart at;                                  // of this state: disks, time, energy, momentum
   double smallest_radius = 0.0, fastest = 0.0;  // length; length / time; 0 without disks
   std::uint64_t hash = 0;                       // state_hash
 };

@@ -28,7 +28,7 @@ namespace {
 struct Header {
   std::array<char, 8> magic{'c', 'a', 'r', 'o', 'm', 'c', 'k', 'p'};
   std::uint64_t byte_order = 0x0102030405060708ULL;
-  std::uint64_t format = 20;  // goes up with every change of what is written
+  std::uint64_t format = 21;  // goes up with every change of what is written
 };
 struct Tail {
   std::uint64_t bytes = 0;     // of the content, without the zeros

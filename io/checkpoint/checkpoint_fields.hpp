@@ -231,8 +231,8 @@ void fields(Stream& stream, T& value) {
 
 template <class Stream, Is<RunStart> T>
 void fields(Stream& stream, T& value) {
-  auto& [particles, time, energy, momentum] = value;
-  stream(particles, time, energy, momentum);
+  auto& [particles, time, energy, momentum, relative] = value;
+  stream(particles, time, energy, momentum, relative);
 }
 
 template <class Stream, Is<RunRecord> T>

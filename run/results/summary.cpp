@@ -120,11 +120,10 @@ const JsonKey<Summary> summary_keys[] = {
     {"wall_overlap", "", "likewise of a disk and a wall, over its radius",
      [](const Summary& s) -> Json { return json_number(s.wall_overlap); }},
     {"pressure", "energy / area",
-     "mean over the run, from collisions and the kinetic energy halfway between start and end (in a shear flow that "
-     "relative to it at the end), in the room between the mean places of sides that move; null likewise, of motion in "
-     "no time, and where these two differ by more than a "
-     "quarter, or are 0 with collisions in between: the pressure of a gas that cools or heats up is in series.csv, "
-     "over time (output.series)",
+     "mean over the run, from collisions and the kinetic energy halfway between start and end (relative to a shear "
+     "flow), in the room between the mean places of sides that move; null likewise, of motion in no time, and where "
+     "the energies of start and end differ by more than a quarter, or are 0 with collisions in between: the pressure "
+     "of a gas that cools or heats up is in series.csv, over time (output.series)",
      [](const Summary& s) -> Json { return json_number(s.pressure); }},
     {"collision_rate", "1 / time",
      "collisions that a disk takes part in per unit time, over the time that all disks were there; in time stepping "
@@ -234,11 +233,11 @@ std::string traffic_line(const Summary& s) {
 std::string pressure_line(const Summary& s) {
   if (std::isnan(s.pressure)) {
     if (s.counters.steps == 0) return "not known, as no time has passed";
-    return fmt::format("not known from the kinetic energy at the start, {:.6g}, and at the end, {:.6g}; {} over time",
-                       s.kinetic_initial, s.kinetic_final,
+    return fmt::format("not known from the kinetic energy {}at the start, {:.6g}, and at the end, {:.6g}; {} over time",
+                       s.box.shear.acts() ? "relative to the flow " : "", s.kinetic_initial, s.kinetic_final,
                        s.series ? "series.csv has it" : "output.series = true tells it");
   }
-  return fmt::format("{:.6g}{}", s.pressure, s.box.shear.acts() ? ", with the temperature at the end" : "");
+  return fmt::format("{:.6g}", s.pressure);
 }
 
 // "pressure 0.734 +- 0.002, diffusion 0.031 +- 0.001"
@@ -261,21 +260,17 @@ std::string disks_line(const Summary& s) {
   return text;
 }
 
-// Of a run that took so long. In a shear flow from the kinetic energy relative to it at the end; else from that halfway
-// between start and end, and NaN where that is not its mean: disks that fell from rest and rest again have moved.
-double mean_pressure(const Summary& s, double relative, double elapsed) {
+// Of a run that took so long, from the kinetic energy halfway between start and end; NaN where that is not its mean:
+// disks that fell from rest and rest again have moved, and a sheared gas may have cooled for most of its collisions.
+double mean_pressure(const Summary& s, double elapsed) {
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   constexpr double most_change = 0.25;  // of the larger of the two
   const double change = std::abs(s.kinetic_final - s.kinetic_initial);
   const double larger = std::max(s.kinetic_initial, s.kinetic_final);
   if (!(elapsed > 0.0) && larger > 0.0) return nothing;
   const bool have_met = s.counters.collisions + s.counters.wall_collisions > 0;
-  Energy mean{0.5 * (s.kinetic_initial + s.kinetic_final), 0.0};
-  if (s.box.shear.acts()) {
-    mean.kinetic = relative;
-  } else if (change > most_change * larger || (larger == 0.0 && have_met)) {
-    return nothing;
-  }
+  if (change > most_change * larger || (larger == 0.0 && have_met)) return nothing;
+  const Energy mean{0.5 * (s.kinetic_initial + s.kinetic_final), 0.0};
   return pressure(mean, s.counters.virial, elapsed, box_in_mean(s.box, s.time - elapsed, s.time));
 }
 
@@ -312,9 +307,9 @@ Summary summarize(const RunStart& start, const Engine& engine, const Scene& scen
   s.wall_overlap = deepest.wall.size;
   s.worst_disks = worst_of(state.validity.disks, deepest.disks, state.time);
   s.worst_wall = worst_of(state.validity.wall, deepest.wall, state.time);
-  s.kinetic_initial = start.energy.kinetic;
-  s.kinetic_final = energy.kinetic;
-  s.pressure = of_velocities(mean_pressure(s, sums.relative, elapsed));
+  s.kinetic_initial = start.relative;
+  s.kinetic_final = sums.at.relative;
+  s.pressure = of_velocities(mean_pressure(s, elapsed));
   const double disk_time = state.counters.disk_time;
   if (disk_time > 0.0) s.collision_rate = 2.0 * static_cast<double>(state.counters.collisions) / disk_time;
   if (elapsed > 0.0) s.mean_disks = disk_time / elapsed;

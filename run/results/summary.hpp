@@ -31,8 +31,8 @@ struct Summary {
   WorstOverlap worst_disks, worst_wall;          // of the whole run
   double mean_disks = 0.0;                       // over the whole run
   double pressure = 0.0;  // mean over the whole run; NaN where the kinetic energy has changed too much to say
-  double kinetic_initial = 0.0, kinetic_final = 0.0;
-  double collision_rate = 0.0;  // per disk per unit time: a collision counts for both disks
+  double kinetic_initial = 0.0, kinetic_final = 0.0;  // relative to a shear flow
+  double collision_rate = 0.0;                        // per disk per unit time: a collision counts for both disks
   std::string state_hash;
   std::uint64_t seed = 1;
   Domain box;

@@ -67,7 +67,7 @@ RunRecord full_record() {
   r.scene_file = "some where/gas.toml";
   r.scene_text = "title = \"\xc3\xa9\"\n";
   r.engine = "reference";
-  r.start = {2, 0.0, {1.0, 2.0}, {3.0, 4.0, 5.0}};
+  r.start = {2, 0.0, {1.0, 2.0}, {3.0, 4.0, 5.0}, 6.0};
   r.outputs.frames = 3;
   r.outputs.last_time = 0.3;
   r.outputs.trajectory = FileMark{"trajectory.xyz", 3, 12345678901};

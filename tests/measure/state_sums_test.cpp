@@ -28,7 +28,7 @@ TEST(StateSums, AreOfAllPieces) {
   const StateSums sums = tally.sums();
   EXPECT_EQ(sums.at.time, 7.0);
   EXPECT_EQ(sums.at.particles, 2U);
-  EXPECT_DOUBLE_EQ(sums.relative, 25.0 + 8.0);
+  EXPECT_DOUBLE_EQ(sums.at.relative, 25.0 + 8.0);
   EXPECT_DOUBLE_EQ(sums.at.energy.kinetic, (2.75 * 2.75 + 16.0) + 2.0 * (0.0625 + 4.0));
   EXPECT_DOUBLE_EQ(sums.at.momentum.x, 2.0 * 2.75 + 4.0 * 0.25);
   EXPECT_DOUBLE_EQ(sums.at.momentum.y, 2.0 * 4.0 + 4.0 * 2.0);
@@ -38,7 +38,7 @@ TEST(StateSums, AreOfAllPieces) {
   scene.box.shear = {};
   StateTally still(scene, 7.0);
   still.add(both, by_id(both));
-  EXPECT_EQ(still.sums().relative, sums.at.energy.kinetic) << "no flow";
+  EXPECT_EQ(still.sums().at.relative, sums.at.energy.kinetic) << "no flow";
 }
 
 }  // namespace

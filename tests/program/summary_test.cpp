@@ -95,9 +95,30 @@ TEST(Summary, ThePressureInAShearIsOfMotionRelativeToTheFlow) {
   const std::string sides =
       "left = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\nshear_rate = 0.5\n";
   const Summary with_flow = summary_of(scene_with(sides, "", "[0.0, 0.0]"));
-  EXPECT_EQ(with_flow.kinetic_final, 1.25 * 1.25);
+  EXPECT_EQ(with_flow.energy_final, 1.25 * 1.25);
+  EXPECT_EQ(with_flow.kinetic_initial, 0.0);
+  EXPECT_EQ(with_flow.kinetic_final, 0.0);
   EXPECT_EQ(with_flow.pressure, 0.0);
   EXPECT_DOUBLE_EQ(summary_of(scene_with(sides, "", "[1.0, 0.0]")).pressure, 1.0 / (10.0 * 10.0));
+}
+
+// A disk that rises by 2 falls behind the flow by as much as that is faster there: by 1, and by 2 where it is twice as
+// fast.
+TEST(Summary, ThePressureInAShearIsOfTheEnergyHalfwayBetweenStartAndEndAsElsewhere) {
+  const auto rising = [](const std::string& rate) {
+    return summary_of(
+        scene_with("left = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\n"
+                   "shear_rate = " +
+                       rate + "\n",
+                   "", "[0.0, 2.0]"));
+  };
+  const Summary slow = rising("0.5");
+  EXPECT_EQ(slow.kinetic_initial, 4.0);
+  EXPECT_DOUBLE_EQ(slow.kinetic_final, 5.0);
+  EXPECT_DOUBLE_EQ(slow.pressure, 4.5 / (10.0 * 10.0));
+  const Summary fast = rising("1.0");
+  EXPECT_DOUBLE_EQ(fast.kinetic_final, 8.0);
+  EXPECT_TRUE(std::isnan(fast.pressure)) << fast.pressure;
 }
 
 }  // namespace

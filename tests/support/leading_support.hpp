@@ -52,7 +52,7 @@ inline void expect_same(const StateSums& a, const StateSums& b) {
   EXPECT_EQ(a.at.momentum.x, b.at.momentum.x);
   EXPECT_EQ(a.at.momentum.y, b.at.momentum.y);
   EXPECT_EQ(a.at.momentum.magnitude, b.at.momentum.magnitude);
-  EXPECT_EQ(a.relative, b.relative);
+  EXPECT_EQ(a.at.relative, b.at.relative);
   EXPECT_EQ(a.smallest_radius, b.smallest_radius);
   EXPECT_EQ(a.fastest, b.fastest);
   EXPECT_EQ(a.hash, b.hash);
