@@ -19,7 +19,8 @@ from ._text import in_words_of_python as _in_words_of_python, words_of_python as
 
 def run(scene: Scene, out: Optional[_arguments.AnyPath] = None, threads: Optional[int] = None, engine: str = "parallel",
         force: bool = False, strict: bool = False, warn: Optional[Callable[[str], Any]] = None) -> Result:
-    """The whole of `carom run`: steps to t_end and writes what the scene asks for to the folder out; without out, no files.
+    """The whole of `carom run`: steps to t_end and writes what the scene asks for to the folder out; without out, no files:
+    the summary is all, with the means of what [analysis] measures.
 
     force replaces earlier results there; strict raises PhysicsError at the first warning of the physics; warn gets each
     warning as a line (default: warnings.warn). Raises SceneError (a folder that holds another run, or has no name),

@@ -49,7 +49,7 @@ RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, BlockRunn
         std::make_unique<H5mdWriter>(folder.path("trajectory.h5"), scene, shows_rounds() ? &rounds_ : nullptr, next_id);
   }
   if (scene.output.series) series_ = std::make_unique<SeriesWriter>(folder.path("series.csv"), scene);
-  if (scene.analysis.any()) analysis_ = std::make_unique<RunningAnalysis>(scene, folder, run_);
+  if (scene.analysis.any()) analysis_ = std::make_unique<RunningAnalysis>(scene, &folder, run_);
 }
 
 RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, BlockRunner run, const OutputMark& from,
@@ -79,7 +79,7 @@ RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, BlockRunn
   if (from.series) series_ = std::make_unique<SeriesWriter>(folder.path(from.series->file.name), scene, *from.series);
   if (scene.analysis.any()) {
     analysis_ =
-        std::make_unique<RunningAnalysis>(scene, folder, run_, from.analysis ? *from.analysis : empty_record(scene));
+        std::make_unique<RunningAnalysis>(scene, &folder, run_, from.analysis ? *from.analysis : empty_record(scene));
   }
   if (!from.movie) {
     if (scene.output.movie && from.frames > 0) lost_movie_ = "the movie broke off before the checkpoint";

@@ -38,10 +38,10 @@ std::vector<std::string_view> followed_names(const Scene& scene) {
 
 }  // namespace
 
-RunningAnalysis::RunningAnalysis(const Scene& scene, const OutputFolder& folder, BlockRunner run)
+RunningAnalysis::RunningAnalysis(const Scene& scene, const OutputFolder* folder, BlockRunner run)
     : scene_(scene), folder_(folder), run_(std::move(run)), record_(empty_record(scene)) {}
 
-RunningAnalysis::RunningAnalysis(const Scene& scene, const OutputFolder& folder, BlockRunner run, AnalysisRecord from)
+RunningAnalysis::RunningAnalysis(const Scene& scene, const OutputFolder* folder, BlockRunner run, AnalysisRecord from)
     : scene_(scene),
       folder_(folder),
       run_(std::move(run)),
@@ -64,7 +64,7 @@ void RunningAnalysis::follow(const Engine& engine, double t) {
 
 void RunningAnalysis::sample(const DisksInPieces& disks, const State& now) {
   take_sample(record_, scene_, disks, now, run_);
-  if (WallClock::now() - written_ > write_interval) write();
+  if (folder_ != nullptr && WallClock::now() - written_ > write_interval) write();
 }
 
 double RunningAnalysis::displacement(const DisksInPieces& disks) {
@@ -74,12 +74,12 @@ double RunningAnalysis::displacement(const DisksInPieces& disks) {
 }
 
 void RunningAnalysis::write() {
-  write_analysis(folder_.path("analysis.h5"), scene_, record_);
+  write_analysis(folder_->path("analysis.h5"), scene_, record_);
   written_ = WallClock::now();
 }
 
 bool RunningAnalysis::draw() const {
-  return draw_analysis(folder_.unfinished(), scene_, record_);
+  return draw_analysis(folder_->unfinished(), scene_, record_);
 }
 
 std::string RunningAnalysis::take_warning() {

@@ -13,11 +13,12 @@ namespace carom {
 
 class RunningAnalysis {
  public:
-  // run: shares out the work of a sample. Precondition: scene.analysis.any(). scene and folder must outlive it.
-  RunningAnalysis(const Scene& scene, const OutputFolder& folder, BlockRunner run);
+  // run: shares out the work of a sample. folder: null where it is for the summary alone, and nothing is written or
+  // drawn. Precondition: scene.analysis.any(). scene and folder must outlive it.
+  RunningAnalysis(const Scene& scene, const OutputFolder* folder, BlockRunner run);
 
   // Goes on from what was gathered up to a checkpoint. Throws InputError where it does not go with the scene.
-  RunningAnalysis(const Scene& scene, const OutputFolder& folder, BlockRunner run, AnalysisRecord from);
+  RunningAnalysis(const Scene& scene, const OutputFolder* folder, BlockRunner run, AnalysisRecord from);
 
   // To be called after each step, and before a frame or sample at time t.
   void follow(const Engine& engine, double t);
@@ -31,6 +32,7 @@ class RunningAnalysis {
   const AnalysisRecord& record() const { return record_; }
   double last_time() const { return record_.series.time.back(); }  // of the last sample, if there is one
 
+  // Precondition, of this and the next: there is a folder.
   void write();
 
   // One plot for each quantity. Returns false, and draws nothing, where gnuplot is not installed.
@@ -41,7 +43,7 @@ class RunningAnalysis {
 
  private:
   const Scene& scene_;
-  const OutputFolder& folder_;
+  const OutputFolder* folder_;
   BlockRunner run_;
   AnalysisRecord record_;
   WallClock::time_point written_{};

@@ -101,7 +101,10 @@ class SceneRun {
         files_(files),
         keeper_(keeper),
         goes_on_(goes_on),
-        disks_(disks) {}
+        disks_(disks) {
+    if (files_ != nullptr || goes_on_ || !scene_.analysis.any()) return;
+    measured_ = std::make_unique<RunningAnalysis>(scene_, nullptr, make_block_runner(settings_.engine));
+  }
 
   // Steps to the end with all outputs, progress and checkpoints, or until the keeper says stop.
   void go();
@@ -113,9 +116,11 @@ class SceneRun {
  private:
   RunObserver observer();
   void say_what_a_stop_waits_for();
+  void watch_samples(RunObserver& observer, const std::function<void(double)>& follow);
+  RunningAnalysis* analysis() const { return files_ != nullptr ? files_->outputs.analysis() : measured_.get(); }
   void take_news(bool silent);
   bool pulse(double seconds);
-  void take_output_warnings() { tell_all(listener_, files_->outputs.take_warnings()); }
+  void take_output_warnings();
   [[noreturn]] void keep_stopped(const PhysicsError& error);
   Summary summary() const;
   std::vector<std::string> energy_gained() const;
@@ -128,6 +133,7 @@ class SceneRun {
   Engine& engine_;
   RunFiles* files_;
   CheckpointKeeper& keeper_;
+  std::unique_ptr<RunningAnalysis> measured_;  // for the summary of a run without files
   bool goes_on_;
   Count disks_;                    // when it begins
   double step_s_ = 0.0;            // seconds in steps
@@ -166,11 +172,35 @@ void SceneRun::say_what_a_stop_waits_for() {
                                    engine_.progress().time));
 }
 
+void SceneRun::take_output_warnings() {
+  if (files_ != nullptr) return tell_all(listener_, files_->outputs.take_warnings());
+  const std::string warning = measured_ ? measured_->take_warning() : "";
+  if (!warning.empty()) tell(listener_.warning, warning);
+}
+
+// follow: what is to be done before a sample, with its time.
+void SceneRun::watch_samples(RunObserver& observer, const std::function<void(double)>& follow) {
+  RunningAnalysis* const analysis = this->analysis();
+  if (analysis == nullptr) return;
+  observer.sample = [this, follow, analysis](const DisksInPieces& disks) {
+    follow(disks.time());
+    analysis->sample(disks, engine_.progress());
+    take_output_warnings();
+    say_what_a_stop_waits_for();
+  };
+  if (!analysis->record().series.time.empty()) observer.last_sample = analysis->last_time();
+}
+
 RunObserver SceneRun::observer() {
   RunObserver observer;
   observer.go_on = [this] { return !keeper_.wants_stop(); };
   observer.pulse = [this](double seconds) { return pulse(seconds); };
-  if (files_ == nullptr) return observer;
+  if (files_ == nullptr) {
+    if (!measured_) return observer;
+    watch_samples(observer, [this](double t) { measured_->follow(engine_, t); });
+    observer.stepped = [this] { measured_->follow(engine_, engine_.progress().time); };
+    return observer;
+  }
   RunOutputs& outputs = files_->outputs;
   if (wants_frames(scene_.output)) {
     observer.frame = [this, &outputs](const DisksInPieces& disks) {
@@ -181,15 +211,7 @@ RunObserver SceneRun::observer() {
     };
     if (goes_on_ && outputs.frames() > 0) observer.last_frame = outputs.last_time();
   }
-  if (RunningAnalysis* const analysis = outputs.analysis()) {
-    observer.sample = [this, &outputs, analysis](const DisksInPieces& disks) {
-      outputs.follow(engine_, disks.time());
-      analysis->sample(disks, engine_.progress());
-      take_output_warnings();
-      say_what_a_stop_waits_for();
-    };
-    if (!analysis->record().series.time.empty()) observer.last_sample = analysis->last_time();
-  }
+  watch_samples(observer, [this, &outputs](double t) { outputs.follow(engine_, t); });
   if (outputs.follows()) observer.stepped = [this, &outputs] { outputs.follow(engine_, engine_.progress().time); };
   return observer;
 }
@@ -237,11 +259,9 @@ std::vector<std::string> SceneRun::energy_gained() const {
 Summary SceneRun::summary() const {
   const RunRecord record = keeper_.record(step_s_);
   Summary summary = summarize(record.start, engine_, scene_, settings_.engine);
-  if (files_ != nullptr) {
-    summary.frames = files_->outputs.frames();
-    if (const RunningAnalysis* const analysis = files_->outputs.analysis()) {
-      summary.measured = measured_means(analysis->record(), scene_);
-    }
+  if (files_ != nullptr) summary.frames = files_->outputs.frames();
+  if (const RunningAnalysis* const measured = analysis()) {
+    summary.measured = measured_means(measured->record(), scene_);
   }
   summary.step_s = record.step_s;
   summary.wall_s = record.wall_s;

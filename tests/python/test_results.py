@@ -31,6 +31,38 @@ def test_columns_have_what_the_file_says_of_them(result):
     assert result.series["kinetic"].shape == (9,)
 
 
+def test_a_run_without_files_is_measured_too(tmp_path):
+    scene = carom.Scene({
+        "box": {"packing_fraction": 0.3, "left": "periodic", "right": "periodic", "bottom": "periodic", "top": "periodic"},
+        "disks": [{"count": 100, "positions": "random", "velocities": {"maxwell": 1.0}, "radius": 0.5, "mass": 1.0}],
+        "run": {"method": "exact", "t_end": 8.0},
+        "analysis": {"what": ["pressure", "collision_rate", "displacement", "bond_order"], "every": 0.25, "start": 1.0},
+    })
+    with_files = carom.run(scene, out=tmp_path / "run")
+    without = carom.run(scene)
+    assert without.summary["analysis"] == with_files.summary["analysis"] and without.hash == with_files.hash
+    assert without.summary["analysis"]["diffusion"] > 0.0 and without.summary["analysis"]["pressure_error"] > 0.0
+    with pytest.raises(carom.SceneError, match="the run wrote no files"):
+        without.analysis
+    for result in carom.map([scene, scene]):
+        assert result.summary["analysis"] == with_files.summary["analysis"]
+
+
+# What is warned of on the way: the only disk goes before the first sample.
+def test_a_run_without_files_warns_of_what_is_not_measured(tmp_path):
+    scene = carom.Scene({
+        "box": {"width": 4.0, "height": 4.0, "right": "sink"},
+        "disks": [{"count": 1, "positions": [[2.0, 2.0]], "velocities": [[4.0, 0.0]], "radius": 0.5, "mass": 1.0}],
+        "run": {"method": "pairwise", "dt": 0.0625, "t_end": 2.0},
+        "analysis": {"what": ["displacement"], "every": 0.5, "start": 1.0},
+    })
+    told = []
+    for out in (tmp_path / "run", None):
+        told.append([])
+        carom.run(scene, out=out, warn=told[-1].append)
+    assert told[0] == told[1] and any("use a later analysis.start" in warning for warning in told[1]), told
+
+
 def test_a_result_is_opened_again(result, tmp_path):
     again = carom.Result.load(os.fsencode(result.folder))
     assert again.summary == result.summary and again.folder == result.folder and repr(again) == repr(result)
