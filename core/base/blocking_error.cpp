@@ -15,9 +15,14 @@ struct Block {
   double mean, weight;
 };
 
-double error_of_independent(const std::vector<Block>& blocks) {
+struct Scatter {
+  double error = 0.0;        // of the mean, where blocks are independent
+  double correlation = 0.0;  // of a block with the next one
+};
+
+Scatter scatter_of(const std::vector<Block>& blocks) {
   const auto n = static_cast<double>(blocks.size());
-  double sum = 0.0, weight = 0.0, squares = 0.0;
+  double sum = 0.0, weight = 0.0, squares = 0.0, products = 0.0, before = 0.0;
   for (const Block& b : blocks) {
     sum += b.weight * b.mean;
     weight += b.weight;
@@ -25,8 +30,18 @@ double error_of_independent(const std::vector<Block>& blocks) {
   for (const Block& b : blocks) {
     const double part = b.weight * (b.mean - sum / weight);
     squares += part * part;
+    products += part * before;
+    before = part;
   }
-  return std::sqrt(squares / (n - 1.0) * n) / weight;
+  return {std::sqrt(squares / (n - 1.0) * n) / weight, squares > 0.0 ? products / squares : 0.0};
+}
+
+// That of blocks which go on as the one before did: as if a share c of what a block is off by were left in the next,
+// c^2 in the one after it, and so on. A c that independent blocks have by chance is none.
+double error_of_correlated(const Scatter& scatter, std::size_t blocks) {
+  const double c = scatter.correlation;
+  if (!(c > 1.0 / std::sqrt(static_cast<double>(blocks)))) return scatter.error;
+  return scatter.error * std::sqrt((1.0 + c) / (1.0 - c));
 }
 
 Block together(const Block& a, const Block& b) {
@@ -43,13 +58,15 @@ double blocking_error(const std::vector<double>& series, const std::vector<doubl
     if (!std::isnan(series[k]) && weight > 0.0) blocks.push_back({series[k], weight});
   }
   if (blocks.size() < 2) return std::numeric_limits<double>::quiet_NaN();
-  double largest = error_of_independent(blocks);
+  Scatter scatter = scatter_of(blocks);
+  double largest = scatter.error;
   while (blocks.size() >= 2 * least_blocks) {
     for (std::size_t k = 0; k < blocks.size() / 2; ++k) blocks[k] = together(blocks[2 * k], blocks[2 * k + 1]);
     blocks.resize(blocks.size() / 2);
-    largest = std::max(largest, error_of_independent(blocks));
+    scatter = scatter_of(blocks);
+    largest = std::max(largest, scatter.error);
   }
-  return largest;
+  return std::max(largest, error_of_correlated(scatter, blocks.size()));
 }
 
 }  // namespace carom

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/base/blocking_error.hpp"
 #include "core/base/random.hpp"
@@ -15,10 +16,10 @@ constexpr std::size_t samples = 1 << 15;
 
 // x_k+1 = a x_k + sqrt(1 - a^2) noise: variance 1, correlation a^k, so that the mean of n has the error
 // sqrt((1 + a) / (1 - a) / n).
-std::vector<double> correlated(double a, std::uint64_t seed) {
-  std::vector<double> series(samples);
+std::vector<double> correlated(double a, std::uint64_t seed, std::size_t count = samples) {
+  std::vector<double> series(count);
   double x = normals(seed, Stream::velocity, 0, 0).x;
-  for (std::size_t k = 0; k < samples; ++k) {
+  for (std::size_t k = 0; k < count; ++k) {
     series[k] = 3.0 + x;
     x = a * x + std::sqrt(1.0 - a * a) * normals(seed, Stream::velocity, 1, k).x;
   }
@@ -60,6 +61,35 @@ TEST(BlockingError, IsTheLargestOfTheEstimates) {
 TEST(BlockingError, TakesNoFewerThan32Blocks) {
   EXPECT_DOUBLE_EQ(blocking_error(square_wave(64, 4)), std::sqrt(1.0 / 31.0));
   EXPECT_DOUBLE_EQ(blocking_error(square_wave(128, 4)), std::sqrt(1.0 / 31.0));
+}
+
+// So few samples that no blocks of 32 are longer than the correlations: what the mean scatters by all the same, where
+// there are eight correlation times or more.
+TEST(BlockingError, KnowsCorrelationsThatAreLongerThanItsBlocks) {
+  struct Case {
+    std::size_t count;
+    double time;  // over which correlations decay, in samples
+  };
+  for (const auto& [count, time] : {Case{40, 3.0}, Case{100, 0.0}, Case{100, 3.0}, Case{100, 11.0}, Case{250, 11.0},
+                                    Case{500, 33.0}, Case{1000, 100.0}}) {
+    double off2 = 0.0, error2 = 0.0;
+    const double a = time > 0.0 ? std::exp(-1.0 / time) : 0.0;
+    for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+      const std::vector<double> series = correlated(a, seed, count);
+      const double mean = std::accumulate(series.begin(), series.end(), 0.0) / static_cast<double>(count);
+      const double error = blocking_error(series);
+      off2 += (mean - 3.0) * (mean - 3.0);
+      error2 += error * error;
+    }
+    EXPECT_GT(error2, 0.7 * off2) << count << " samples, correlated over " << time;
+    EXPECT_LT(error2, 1.6 * off2) << count << " samples, correlated over " << time;
+  }
+}
+
+// Of ten blocks 1, 1, 1, 1, 1, -1, ..., -1 nine neighbours are alike but for one pair.
+TEST(BlockingError, OfCorrelatedBlocksByHand) {
+  EXPECT_DOUBLE_EQ(blocking_error(square_wave(10, 5)), std::sqrt(1.0 / 9.0 * (1.0 + 0.7) / (1.0 - 0.7)));
+  EXPECT_DOUBLE_EQ(blocking_error({2.0, 2.0, 2.0}), 0.0);
 }
 
 // Means over intervals of many lengths, each with an error as of 1 / interval events: the short ones scatter most and
