@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "core/scene/place_in_file.hpp"
 #include "core/scene/scene_names.hpp"
 #include "core/step/step_start.hpp"
 
@@ -55,7 +56,8 @@ bool loses_hold(const InnerWall& wall, const Scene& scene) {
 std::vector<std::string> wall_warnings(const Scene& scene) {
   std::vector<std::string> warnings;
   const auto warn = [&](std::size_t k, const std::string& what) {
-    warnings.push_back(fmt::format("{}:{}: walls.{}: {}", scene.file, scene.walls[k].line, k, what));
+    const std::string place = place_in_file(scene.file, scene.walls[k].line, fmt::format("walls.{}", k));
+    warnings.push_back(fmt::format("{}: {}", place, what));
   };
   for (std::size_t k = 0; k < scene.walls.size(); ++k) {
     if (const std::optional<Side> side = side_behind(scene.walls[k], scene.box)) {

@@ -13,6 +13,7 @@
 #include "core/disks/place_slack.hpp"
 #include "core/physics/obstacle_contact.hpp"
 #include "core/scene/disk_group.hpp"
+#include "core/scene/place_in_file.hpp"
 #include "core/scene/size_law.hpp"
 #include "core/start/between_sides.hpp"
 #include "core/start/initial_velocities.hpp"
@@ -273,7 +274,7 @@ void draw_sizes(const Scene& scene, const DiskGroup& group, DiskId first_id, std
                 std::vector<double>& masses) {
   const auto check = [&](const SizeLaw& law, std::string_view key) {
     if (law.kind != SizeLaw::Kind::list || law.values.size() >= group.count) return;
-    fail_input(fmt::format("{}:{}: disks {}", scene.file, group.line, key),
+    fail_input(place_in_file(scene.file, group.line, fmt::format("disks {}", key)),
                fmt::format("has {} for count = {}", counted(law.values.size(), "entry"), group.count),
                "expected one entry a disk");
   };

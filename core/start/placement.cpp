@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "core/scene/place_in_file.hpp"
 #include "core/start/placement_search.hpp"
 
 namespace carom {
@@ -30,7 +31,7 @@ PlaceAtRandom place_watched(std::function<void()> watch) {
 std::string place_in_group(const Scene& scene, std::size_t group, std::string_view key) {
   const DiskGroup& g = scene.groups[group];
   if (key == "positions" && !g.positions.where.empty()) return g.positions.where;
-  return fmt::format("{}:{}: disks.{}.{}", scene.file, g.line, group, key);
+  return place_in_file(scene.file, g.line, fmt::format("disks.{}.{}", group, key));
 }
 
 }  // namespace carom

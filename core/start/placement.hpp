@@ -23,7 +23,7 @@ using PlaceAtRandom = std::function<void(const Scene&, Disks&, PlacementGrid&, s
 // place_at_random, which calls watch after every few disks; what that throws ends it.
 PlaceAtRandom place_watched(std::function<void()> watch);
 
-// "file:line: disks.g.key", where messages about group g point.
+// "file:line: disks.g.key", where messages about group g point; without a line where no line of the file has the group.
 std::string place_in_group(const Scene& scene, std::size_t group, std::string_view key);
 
 }  // namespace carom

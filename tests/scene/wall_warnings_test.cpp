@@ -42,6 +42,13 @@ TEST(WallWarnings, AWallThatDiffersFromTheSideBehindIt) {
                                     "take another method")));
 }
 
+// It was "gas.toml:0".
+TEST(WallWarnings, AWallOfNoLineOfTheFileHasNone) {
+  const std::vector<Override> sets{{"walls", "[{ points = [[4, 10], [9, 10]], restitution = 0.25 }]"}};
+  EXPECT_THAT(wall_warnings(test::scene_from(sound_scene, sets)),
+              ElementsAre(testing::StartsWith("gas.toml: walls.0: lies along the top side, ")));
+}
+
 TEST(WallWarnings, NoneOfOthers) {
   EXPECT_THAT(warnings(along_top), IsEmpty()) << "the same as the side";
   EXPECT_THAT(warnings(std::string(along_top) + "\nkind = \"sink\""), IsEmpty());
