@@ -39,7 +39,9 @@ std::string step_text(const Scene& scene, const Findings& f) {
   if (std::isinf(safe)) return "any: nothing moves";
   std::string text = fmt::format("{:.3g} or less", safe);
   if (f.steps.at_start > f.steps.later) {
-    text += fmt::format(": {:.3g} at the speeds of the start, {:.3g} ", f.steps.at_start, f.steps.later);
+    // Of disks that are at rest there, any.
+    const std::string at_start = std::isinf(f.steps.at_start) ? "any" : fmt::format("{:.3g}", f.steps.at_start);
+    text += fmt::format(": {} at the speeds of the start, {:.3g} ", at_start, f.steps.later);
     text += f.steps.landing_speed > 0.0 ? fmt::format("after falling (speed {:.3g})", f.steps.landing_speed)
             : f.steps.driven            ? "at those that walls or a thermostat give"
                                         : "at those of sources";

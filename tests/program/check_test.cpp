@@ -104,6 +104,15 @@ TEST_F(Check, TheSafeStepIsThatAfterTheFall) {
   EXPECT_EQ(carom("run " + endless).status, 3);
 }
 
+TEST_F(Check, AnyStepIsSafeAtTheStartForDisksAtRest) {
+  write("rest.toml", falling_disk);
+  const std::string moved =
+      "rest.toml --method pairwise --dt 1.0 --set physics.gravity=0.0 --set "
+      "'box.left={ motion = { velocity = [0.01, 0.0] } }'";
+  EXPECT_THAT(carom("check " + moved).out,
+              HasSubstr("12.5 or less: any at the speeds of the start, 12.5 at those that walls or a thermostat give"));
+}
+
 // The velocities of the start are forgotten, and exact splits no step: check warns where the run does, of sqrt(2 D dt)
 // = half a radius; pairwise has three of these in half a radius.
 TEST_F(Check, ABrownianStepIsNoFasterForTheVelocitiesOfTheStart) {
