@@ -110,11 +110,21 @@ void check_links(const fs::path& name, const fs::path& folder) {
   }
 }
 
+// Makes a folder, with what is missing above it. A run that finds out at this moment whether it may write there
+// (check_writable) takes away what it made, and with that what this one was about to be made in.
+void make_folders(const fs::path& folder, std::error_code& error) {
+  constexpr int attempts = 100;
+  for (int k = 0; k < attempts; ++k) {
+    fs::create_directories(folder, error);
+    if (error != std::errc::no_such_file_or_directory) return;
+  }
+}
+
 // Why no folder can be made here, found out by making one that goes away again; nothing where there is but no room.
 std::error_code why_not_writable(const fs::path& folder) {
   std::error_code error;
   const fs::path probe = folder / fmt::format("carom-probe-{}", getpid());
-  fs::create_directories(probe, error);
+  make_folders(probe, error);
   const std::error_code why = error;
   fs::remove(probe, error);
   return why == std::errc::no_space_on_device ? std::error_code{} : why;
@@ -246,7 +256,7 @@ OutputFolder::OutputFolder(const fs::path& folder, const fs::path& input, bool f
   made_ = missing_folders(folder_);
   std::reverse(made_.begin(), made_.end());
   fs::remove_all(unfinished_, error);
-  fs::create_directories(unfinished_, error);
+  make_folders(unfinished_, error);
   if (!error && holds_pictures(folder_)) fs::create_directory(unfinished_ / old_pictures_name, error);
   if (!error) {
     lock();
@@ -262,7 +272,7 @@ OutputFolder::OutputFolder(const fs::path& folder, const fs::path& input, bool f
 OutputFolder::OutputFolder(const fs::path& folder)
     : folder_(normal(folder)), unfinished_(unfinished_of(folder_)), done_(true) {
   std::error_code error;
-  fs::create_directories(unfinished_, error);
+  make_folders(unfinished_, error);
   // Both may be there and take no files, which the first one would find out when others have been moved.
   for (const fs::path& place : {folder_, unfinished_}) {
     if (!error) error = why_not_writable(place);

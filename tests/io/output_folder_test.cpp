@@ -364,6 +364,29 @@ TEST_F(OutputFolderTest, CheckpointsStayWhereTheyAreAskedFor) {
 
 // The folder of a run that still writes: one that comes second takes nothing away, and one that has ended gives up its
 // lock.
+// Which takes away again what it made, just when this run is about to make a folder in there.
+TEST_F(OutputFolderTest, AnotherRunFindsOutWhetherItMayWriteThere) {
+  const fs::path folder = base_ / "shared" / "run";
+  std::atomic<bool> done{false};
+  std::thread other([&] {
+    std::error_code error;
+    while (!done) fs::remove(folder, error) && fs::remove(folder.parent_path(), error);
+  });
+  std::string said;
+  for (int k = 0; k < 300 && said.empty(); ++k) said = refusal(folder, false);
+  for (int k = 0; k < 50 && said.empty(); ++k) {
+    try {
+      run(folder, "{}", true);
+    } catch (const std::exception& e) {
+      said = e.what();
+    }
+    fs::remove_all(folder);
+  }
+  done = true;
+  other.join();
+  EXPECT_EQ(said, "");
+}
+
 TEST_F(OutputFolderTest, WhoComesSecondTakesNothingAway) {
   const fs::path folder = base_ / "out";
   {
