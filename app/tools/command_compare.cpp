@@ -6,10 +6,12 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <new>
 #include <nlohmann/json.hpp>
 
 #include "app/cli/commands.hpp"
 #include "app/cli/messages.hpp"
+#include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
 #include "io/files/output_folder.hpp"
 #include "io/files/shell_word.hpp"
@@ -196,9 +198,7 @@ const JsonKey<Comparison> compare_keys[] = {
      [](const Comparison& c) -> Json { return c.frames ? largest_json(*c.frames) : absent(); }},
 };
 
-}  // namespace
-
-int command_compare(const CompareOptions& options) {
+int compare(const CompareOptions& options) {
   const Output a = open_output(options.a), b = open_output(options.b);
   const bool both_trajectories = !a.trajectory.empty() && !b.trajectory.empty();
   if (!both_trajectories && (a.summary.is_null() || b.summary.is_null())) {
@@ -226,6 +226,23 @@ int command_compare(const CompareOptions& options) {
   if (same && frames && !options.rule) print_out(fmt::format("same bits in all {} frames\n", frames->frames_a));
   if (same && !frames) print_out("same summary, state hash included\n");
   return same ? 0 : 1;
+}
+
+}  // namespace
+
+// A file that cannot be read, or an answer that cannot be printed, is no difference, which 1 stands for.
+int command_compare(const CompareOptions& options) {
+  constexpr int not_compared = 2;
+  try {
+    return compare(options);
+  } catch (const ReaderGone&) {
+    throw;
+  } catch (const RunError& error) {
+    print_note(fmt::format("error: {}", error.what()));
+  } catch (const std::bad_alloc&) {
+    print_note("error: out of memory");
+  }
+  return not_compared;
 }
 
 std::vector<KeyText> compare_key_texts() {

@@ -36,6 +36,12 @@ class Compare : public test::CommandTest {
   Outcome compare(const std::string& options) const { return carom("compare a.xyz b.xyz " + options); }
 };
 
+// 1 stands for a difference.
+TEST_F(Compare, WhatCannotBePrintedIsNoDifference) {
+  EXPECT_EQ(carom("run small.toml --quiet -o run").status, 0);
+  expect_error("$C compare run run >/dev/full", 2, "cannot write to standard output: No space left on device");
+}
+
 TEST_F(Compare, PeriodicPlacesDifferByTheNearestImage) {
   const Outcome o = compare("");
   EXPECT_EQ(o.status, 1);
