@@ -1,9 +1,12 @@
 #include "app/sweep/sweep.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <fstream>
 #include <string_view>
 #include <thread>
@@ -79,6 +82,10 @@ void Sweep::open_folder() {
   std::error_code error;
   if (fs::is_directory(folder_, error)) {
     lock_.emplace(folder_);
+    if (access(folder_.c_str(), W_OK) != 0) {
+      fail_input(folder_.string(), fmt::format("cannot be written to: {}", std::strerror(errno)),
+                 "expected a folder for the sweep (-o)");
+    }
   } else if (fs::exists(folder_, error)) {
     fail_input(folder_.string(), "is a file", "expected a folder for the sweep (-o)");
   }

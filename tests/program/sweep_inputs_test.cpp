@@ -168,5 +168,15 @@ TEST_F(LongSweepInputs, EveryRowIsOfTheFileAsItWas) {
   EXPECT_THAT(o.err, HasSubstr("has changed since the sweep began"));
 }
 
+// Not even to the superuser, who has no leave to write everywhere then.
+TEST_F(SweepInputs, AFolderThatCannotBeWrittenIsRefused) {
+  ASSERT_EQ(carom("sweep scene.toml -o s --seeds 1").status, 0);
+  const Outcome o = shell(
+      "chmod a-w s; as=; [ $(id -u) != 0 ] || as='setpriv --bounding-set=-dac_override'; $as $C sweep scene.toml -o s "
+      "--seeds 1; status=$?; chmod u+w s; exit $status");
+  EXPECT_EQ(o.status, 2);
+  EXPECT_EQ(o.err, "carom: error: s: cannot be written to: Permission denied; expected a folder for the sweep (-o)\n");
+}
+
 }  // namespace
 }  // namespace carom
