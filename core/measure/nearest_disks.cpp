@@ -129,15 +129,16 @@ class NearestDisks::Search {
     }
   }
 
-  // A disk may be met at several of its images: one of them is the nearest.
+  // A disk may be met at several of its images: one of them is the nearest. In a flat sheared box it is met, and the
+  // nearest looked for, in very many rows: so first whether it is known.
   void meet(const Centre& c) {
     if (c.disk == own_.disk) return;
+    for (const Neighbour& n : found_) {
+      if (n.id == c.id) return;
+    }
     const Vec2 to = all_.apart(own_, c);
     const Neighbour met{to.x * to.x + to.y * to.y, c.id, to};
     if (!(met < found_.back())) return;
-    for (const Neighbour& n : found_) {
-      if (n.id == met.id) return;
-    }
     found_.back() = met;
     for (std::size_t k = neighbours_of_bonds - 1; k > 0 && found_[k] < found_[k - 1]; --k)
       std::swap(found_[k], found_[k - 1]);

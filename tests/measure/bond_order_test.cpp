@@ -111,6 +111,22 @@ TEST(BondOrder, OfEquallyFarDisksTheLowestIdsCount) {
   }
 }
 
+// At time 0 images lie straight above each other, as without shear. In a flat box many thousand rows of them are nearer
+// than the sixth neighbour: the nearest image of a disk is looked for among them once, not again in each row.
+TEST(BondOrder, InAFlatShearedBoxIsFoundAtOnce) {
+  const Domain plain = test::box_of(1e5, 1.0, test::periodic_along(true, true));
+  Domain sheared = plain;
+  sheared.shear.rate = sheared.shear.jump = 1.0;
+  test::Draws draws(7);
+  Disks d;
+  for (DiskId id = 0; id < 25; ++id) append(d, {draws.in(0.0, 1e5), draws.in(0.0, 1.0), 0, 0, 0.1, 1.0, id});
+  const std::vector<Vec2> psi = bond_orders(d, sheared), expected = bond_orders(d, plain);
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    EXPECT_NEAR(psi[i].x, expected[i].x, 1e-12) << i;
+    EXPECT_NEAR(psi[i].y, expected[i].y, 1e-12) << i;
+  }
+}
+
 // Disks at one place have no direction to each other.
 TEST(BondOrder, DisksAtOnePlaceAddNothing) {
   const Domain box = test::box_of(8.0, 8.0);
