@@ -3,19 +3,13 @@
 
 #include <gmock/gmock.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
-#include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <iterator>
 #include <string>
-#include <thread>
-#include <vector>
 
 #include "core/base/check.hpp"
 #include "io/files/output_file.hpp"
@@ -63,27 +57,6 @@ TEST_F(OutputFolderTest, ResultsAppearOnlyWhenFinished) {
 }
 
 // A program may run scenes side by side: each folder is locked for one of them, whatever the others begin and end.
-TEST_F(OutputFolderTest, ThreadsHaveFoldersOfTheirOwn) {
-  std::atomic<int> refused = 0;
-  {
-    std::vector<std::jthread> threads;
-    for (int t = 0; t < 4; ++t) {
-      threads.emplace_back([&, t] {
-        for (int k = 0; k < 50; ++k) {
-          const fs::path folder = base_ / std::to_string(t) / std::to_string(k);
-          const OutputFolder out(folder, base_ / "input.toml", false);
-          try {
-            const OutputFolder again(folder);
-          } catch (const InputError&) {
-            ++refused;
-          }
-        }
-      });
-    }
-  }
-  EXPECT_EQ(refused, 200);
-}
-
 TEST_F(OutputFolderTest, AFailedRunLeavesNothing) {
   {
     OutputFolder out(base_ / "a" / "b", base_ / "input.toml", false);
@@ -141,49 +114,6 @@ TEST_F(OutputFolderTest, AnUnfinishedRunIsSeen) {
   fs::create_directories(base_ / "out" / "carom-unfinished");
   EXPECT_THAT(refusal(base_ / "out", false), HasSubstr("another run is writing there, or stopped"));
   EXPECT_EQ(refusal(base_ / "out", true), "");
-}
-
-// A run is killed just after it has forked a child, which has not come to its exec: the child has every descriptor of
-// the run, but not its lock.
-TEST_F(OutputFolderTest, TheLockGoesWithTheProcess) {
-  std::array<int, 2> held{};
-  std::array<int, 2> child_may_end{};
-  ASSERT_EQ(pipe(held.data()), 0);
-  ASSERT_EQ(pipe(child_may_end.data()), 0);
-  const fs::path folder = base_ / "out";
-  const pid_t run = fork();
-  if (run == 0) {
-    OutputFolder out(folder, base_ / "input.toml", false);
-    out.keep_unfinished();
-    char byte = 0;
-    if (fork() == 0) {
-      close(child_may_end[1]);
-      _exit(read(child_may_end[0], &byte, 1) == 0 ? 0 : 1);
-    }
-    if (write(held[1], &byte, 1) != 1) _exit(1);
-    pause();
-  }
-  close(child_may_end[0]);
-  char byte = 0;
-  ASSERT_EQ(read(held[0], &byte, 1), 1);
-  EXPECT_THAT(refusal(folder, true), HasSubstr("another run is writing there"));
-  EXPECT_THROW(OutputFolder{folder}, InputError);
-  ASSERT_EQ(kill(run, SIGKILL), 0);
-  ASSERT_EQ(waitpid(run, nullptr, 0), run);
-  EXPECT_EQ(refusal(folder, true), "");
-  EXPECT_NO_THROW(OutputFolder{folder});
-  for (const int end : {held[0], held[1], child_may_end[1]}) close(end);
-}
-
-TEST_F(OutputFolderTest, OneProcessLocksAFolderOnce) {
-  const fs::path folder = base_ / "out";
-  {
-    const OutputFolder first(folder, base_ / "input.toml", false);
-    EXPECT_THAT(refusal(folder, true), HasSubstr("another run is writing there"));
-    EXPECT_THROW(OutputFolder{folder}, InputError);
-  }
-  OutputFolder(folder, base_ / "input.toml", false).finish();
-  EXPECT_FALSE(fs::exists(folder / "carom-unfinished"));
 }
 
 TEST_F(OutputFolderTest, WhatIsNotOursIsNeverTouched) {
@@ -364,46 +294,6 @@ TEST_F(OutputFolderTest, CheckpointsStayWhereTheyAreAskedFor) {
 
 // The folder of a run that still writes: one that comes second takes nothing away, and one that has ended gives up its
 // lock.
-// Which takes away again what it made, just when this run is about to make a folder in there.
-TEST_F(OutputFolderTest, AnotherRunFindsOutWhetherItMayWriteThere) {
-  const fs::path folder = base_ / "shared" / "run";
-  std::atomic<bool> done{false};
-  std::thread other([&] {
-    std::error_code error;
-    while (!done) fs::remove(folder, error) && fs::remove(folder.parent_path(), error);
-  });
-  std::string said;
-  for (int k = 0; k < 300 && said.empty(); ++k) said = refusal(folder, false);
-  for (int k = 0; k < 50 && said.empty(); ++k) {
-    try {
-      run(folder, "{}", true);
-    } catch (const std::exception& e) {
-      said = e.what();
-    }
-    fs::remove_all(folder);
-  }
-  done = true;
-  other.join();
-  EXPECT_EQ(said, "");
-}
-
-TEST_F(OutputFolderTest, WhoComesSecondTakesNothingAway) {
-  const fs::path folder = base_ / "out";
-  {
-    OutputFolder first(folder, base_ / "input.toml", false);
-    write_file(first.path("series.csv"), "t\n");
-    EXPECT_TRUE(is_being_written(folder));
-    EXPECT_THROW(OutputFolder{folder}, InputError);
-    EXPECT_EQ(text(folder / unfinished_name / "series.csv"), "t\n");
-    first.keep_unfinished();
-  }
-  EXPECT_FALSE(is_being_written(folder));
-  OutputFolder second{folder};
-  EXPECT_TRUE(is_being_written(folder));
-  second.finish();
-  EXPECT_FALSE(is_being_written(folder));
-}
-
 TEST_F(OutputFolderTest, TheNextFreeFolderIsTaken) {
   const fs::path input = base_ / "input.toml";
   EXPECT_EQ(free_output_folder(base_ / "out", input), base_ / "out");
