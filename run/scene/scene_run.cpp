@@ -8,7 +8,6 @@
 #include <system_error>
 #include <utility>
 
-#include "core/base/check.hpp"
 #include "core/measure/energy_gain.hpp"
 #include "core/scene/scene_output.hpp"
 #include "core/step/late_collisions.hpp"
@@ -16,6 +15,7 @@
 #include "io/files/checkpoint_names.hpp"
 #include "io/files/output_file.hpp"
 #include "io/files/shell_word.hpp"
+#include "run/engine/strict_engine.hpp"
 #include "run/recordings/run_view.hpp"
 
 namespace carom {

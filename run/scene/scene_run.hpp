@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/check.hpp"
 #include "core/base/wall_clock.hpp"
 #include "core/disks/state.hpp"
 #include "core/scene/scene.hpp"
