@@ -18,8 +18,6 @@ namespace {
 // A record lock belongs to the process alone, so no child inherits it, not even between its fork and its exec, and it
 // ends with the process however that ends. The process loses it when it closes any descriptor of the file, so it opens
 // no second one: it keeps a list of the files that it holds. A program may run scenes on several threads.
-constexpr const char* lock_name = "lock";
-
 struct LocksHeld {
   std::mutex mutex;
   std::vector<fs::path> files;
@@ -47,7 +45,7 @@ struct flock whole_file() {
 }  // namespace
 
 bool FolderLock::take(const fs::path& folder) {
-  const fs::path file = folder / lock_name;
+  const fs::path file = folder / folder_lock_name;
   LocksHeld& held = locks_held();
   const std::lock_guard guard(held.mutex);
   if (held.has(file)) return false;
@@ -73,7 +71,7 @@ void FolderLock::give_up() {
 }
 
 bool is_locked(const fs::path& folder) {
-  const fs::path file = folder / lock_name;
+  const fs::path file = folder / folder_lock_name;
   LocksHeld& held = locks_held();
   const std::lock_guard guard(held.mutex);
   if (held.has(file)) return true;

@@ -1,11 +1,13 @@
-// Two runs that write into one folder would spoil each other's files.
+// Two programs that write into one folder would spoil each other's files.
 #pragma once
 
 #include <filesystem>
 
 namespace carom {
 
-// Holds a folder by a lock on the file FOLDER/lock: until it is given up, this object goes, or the process ends.
+inline constexpr const char* folder_lock_name = "lock";
+
+// Holds a folder by a lock on this file in it: until it is given up, this object goes, or the process ends.
 class FolderLock {
  public:
   FolderLock() = default;

@@ -111,12 +111,21 @@ void check_links(const fs::path& name, const fs::path& folder) {
 }
 
 // Makes a folder, with what is missing above it. A run that finds out at this moment whether it may write there
-// (check_writable) takes away what it made, and with that what this one was about to be made in.
+// (check_writable) takes away what it made: what this one was about to be made in, or has just found to be there.
 void make_folders(const fs::path& folder, std::error_code& error) {
   constexpr int attempts = 100;
   for (int k = 0; k < attempts; ++k) {
     fs::create_directories(folder, error);
-    if (error != std::errc::no_such_file_or_directory) return;
+    if (error != std::errc::no_such_file_or_directory && error != std::errc::file_exists) return;
+  }
+}
+
+// What an earlier run has left. Precondition: the folder is locked, so that no other run has just made it.
+void remove_all_but_lock(const fs::path& folder, std::error_code& error) {
+  std::vector<fs::path> left;
+  for (const auto& entry : fs::directory_iterator(folder, error)) left.push_back(entry.path());
+  for (const fs::path& path : left) {
+    if (!error && path.filename() != folder_lock_name) fs::remove_all(path, error);
   }
 }
 
@@ -215,7 +224,9 @@ void check_output_folder(const fs::path& name, const fs::path& input, bool force
     throw InputError(fmt::format("{}: is the root of all folders; expected one of the run's own, such as -o out/{}",
                                  name.string(), input.stem().string()));
   }
-  if (fs::exists(folder, error) && !fs::is_directory(folder, error)) {
+  // Looked at once: another run that finds out whether it may write there takes away again what it made.
+  const fs::file_status status = fs::status(folder, error);
+  if (fs::exists(status) && !fs::is_directory(status)) {
     throw InputError(fmt::format("{}: is a file; expected a folder for the results (-o)", name.string()));
   }
   check_writable(name, folder);
@@ -255,13 +266,15 @@ OutputFolder::OutputFolder(const fs::path& folder, const fs::path& input, bool f
   std::error_code error;
   made_ = missing_folders(folder_);
   std::reverse(made_.begin(), made_.end());
-  fs::remove_all(unfinished_, error);
+  const fs::file_status before = fs::symlink_status(unfinished_, error);
+  if (fs::exists(before) && !fs::is_directory(before)) fs::remove(unfinished_, error);
   make_folders(unfinished_, error);
-  if (!error && holds_pictures(folder_)) fs::create_directory(unfinished_ / old_pictures_name, error);
   if (!error) {
     lock();
-    return;
+    remove_all_but_lock(unfinished_, error);
   }
+  if (!error && holds_pictures(folder_)) fs::create_directory(unfinished_ / old_pictures_name, error);
+  if (!error) return;
   const std::error_code why = error;
   remove_unfinished();
   if (why == std::errc::no_space_on_device) fail("make the folder", unfinished_, why);

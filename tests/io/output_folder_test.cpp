@@ -292,8 +292,6 @@ TEST_F(OutputFolderTest, CheckpointsStayWhereTheyAreAskedFor) {
   }
 }
 
-// The folder of a run that still writes: one that comes second takes nothing away, and one that has ended gives up its
-// lock.
 TEST_F(OutputFolderTest, TheNextFreeFolderIsTaken) {
   const fs::path input = base_ / "input.toml";
   EXPECT_EQ(free_output_folder(base_ / "out", input), base_ / "out");

@@ -7,6 +7,8 @@
 #include <atomic>
 #include <csignal>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
@@ -103,17 +105,20 @@ TEST_F(SharedFolder, OneProcessLocksAFolderOnce) {
   EXPECT_FALSE(fs::exists(folder / "carom-unfinished"));
 }
 
-// Which takes away again what it made, just when this run is about to make a folder in there.
+// Which makes the folder, and takes away again what it made, just when this run looks at it or is about to make a
+// folder in there.
 TEST_F(SharedFolder, AnotherRunFindsOutWhetherItMayWriteThere) {
   const fs::path folder = base_ / "shared" / "run";
   std::atomic<bool> done{false};
   std::thread other([&] {
-    std::error_code error;
-    while (!done) fs::remove(folder, error) && fs::remove(folder.parent_path(), error);
+    for (std::error_code error; !done;) {
+      fs::create_directories(folder, error);
+      fs::remove(folder, error) && fs::remove(folder.parent_path(), error);
+    }
   });
   std::string said;
-  for (int k = 0; k < 300 && said.empty(); ++k) said = refusal(folder, false);
-  for (int k = 0; k < 50 && said.empty(); ++k) {
+  for (int k = 0; k < 100 && said.empty(); ++k) said = refusal(folder, false);
+  for (int k = 0; k < 20 && said.empty(); ++k) {
     try {
       OutputFolder out(folder, input_, true);
       write_file(out.path("summary.json"), "{}");
@@ -121,13 +126,37 @@ TEST_F(SharedFolder, AnotherRunFindsOutWhetherItMayWriteThere) {
     } catch (const std::exception& e) {
       said = e.what();
     }
-    fs::remove_all(folder);
+    std::error_code error;
+    fs::remove_all(folder, error);
   }
   done = true;
   other.join();
   EXPECT_EQ(said, "");
 }
 
+// Both find that nothing is there. The second took away what the first had made and locked meanwhile.
+TEST_F(SharedFolder, OfTwoThatBeginAtOnceOneWrites) {
+  const fs::path folder = base_ / "out";
+  for (int k = 0; k < 150; ++k) {
+    std::array<std::unique_ptr<OutputFolder>, 2> runs;
+    std::atomic<int> ready{0};
+    const auto begin = [&](std::unique_ptr<OutputFolder>& run) {
+      for (++ready; ready < 2;) std::this_thread::yield();
+      try {
+        run = std::make_unique<OutputFolder>(folder, input_, true);
+      } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("another run is writing there"));
+      }
+    };
+    std::thread other(begin, std::ref(runs[0]));
+    begin(runs[1]);
+    other.join();
+    ASSERT_NE(runs[0] == nullptr, runs[1] == nullptr) << k;
+  }
+}
+
+// The folder of a run that still writes: one that comes second takes nothing away, and one that has ended gives up its
+// lock.
 TEST_F(SharedFolder, WhoComesSecondTakesNothingAway) {
   const fs::path folder = base_ / "out";
   {
