@@ -209,8 +209,9 @@ bool holds_frames_only(const fs::path& frames) {
 
 fs::path present_path(const fs::path& folder, const std::string& file) {
   std::error_code error;
-  const fs::path unfinished = unfinished_of(folder) / file;
-  return fs::exists(unfinished, error) ? unfinished : folder / file;
+  const fs::path unfinished = unfinished_of(folder) / file, finished = folder / file;
+  if (fs::exists(unfinished, error)) return unfinished;
+  return fs::exists(finished, error) || !fs::exists(unfinished_of(folder), error) ? finished : unfinished;
 }
 
 bool is_being_written(const fs::path& folder) {

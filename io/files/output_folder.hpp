@@ -64,7 +64,8 @@ class OutputFolder {
   FolderLock lock_;  // on carom-unfinished
 };
 
-// Where a file of a run lies: in folder/carom-unfinished, or in folder if the run finished.
+// Where a file of a run lies: in folder/carom-unfinished, or in folder if the run finished. One that is in neither
+// would lie in carom-unfinished, if there is that.
 std::filesystem::path present_path(const std::filesystem::path& folder, const std::string& file);
 
 // Whether a folder holds PNG frames of ours and nothing else, so that it may be replaced as a whole.

@@ -240,6 +240,7 @@ TEST_F(OutputFolderTest, WhatARunGoesOnWithIsTakenBack) {
     EXPECT_TRUE(fs::exists(folder / "energy.svg") && fs::exists(folder / "summary.json"));
     EXPECT_EQ(present_path(folder, "series.csv"), folder / unfinished_name / "series.csv") << "of both the newer";
     EXPECT_EQ(present_path(folder, "energy.svg"), folder / "energy.svg");
+    EXPECT_EQ(present_path(folder, "none.csv"), folder / unfinished_name / "none.csv") << "of a run that goes on";
     going_on.take_back(true, {});
     for (const char* const name : {"energy.svg", "summary.json"}) {
       EXPECT_FALSE(fs::exists(folder / name)) << name;
