@@ -10,6 +10,7 @@ namespace carom {
 // Standard output is a pipe, and its reader has gone, as that of `carom docs scene | head -1`.
 struct ReaderGone : RunError {
   using RunError::RunError;
+  int status = 1;  // to end with where the signal does not end the program
 };
 
 // Writes to standard output. Throws ReaderGone, or RunError where that fails otherwise (a full disk).

@@ -111,7 +111,7 @@ int program(int argc, char** argv, RankLead* lead) {
       std::signal(SIGPIPE, at_gone_reader);
       std::raise(SIGPIPE);
     }
-    return fail(1, error.what());
+    return fail(error.status, error.what());
   } catch (const std::bad_alloc&) {
     return fail(1, "out of memory");
   } catch (const std::exception& error) {

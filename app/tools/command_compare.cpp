@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <new>
@@ -11,7 +12,6 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/messages.hpp"
-#include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
 #include "io/files/output_folder.hpp"
 #include "io/files/shell_word.hpp"
@@ -66,10 +66,11 @@ Json summary_in(const std::string& name) {
 
 Output open_output(const std::string& name) {
   check_present(name);
-  if (!fs::is_directory(name)) return {name, name, nullptr};
+  std::error_code error;
+  if (!fs::is_directory(name, error)) return {name, name, nullptr};
   Output output{name, trajectory_in(name), summary_in(name)};
   if (output.trajectory.empty() && output.summary.is_null()) {
-    if (fs::exists(fs::path(name) / unfinished_name)) {
+    if (fs::exists(fs::path(name) / unfinished_name, error)) {
       fail_input(name, "holds a run that is not finished",
                  fmt::format("expected a finished one (carom resume {}), or a trajectory in {}", shell_word(name),
                              (fs::path(name) / unfinished_name).string()));
@@ -235,12 +236,13 @@ int command_compare(const CompareOptions& options) {
   constexpr int not_compared = 2;
   try {
     return compare(options);
-  } catch (const ReaderGone&) {
+  } catch (ReaderGone& error) {
+    error.status = not_compared;
     throw;
-  } catch (const RunError& error) {
-    print_note(fmt::format("error: {}", error.what()));
   } catch (const std::bad_alloc&) {
     print_note("error: out of memory");
+  } catch (const std::exception& error) {
+    print_note(fmt::format("error: {}", error.what()));
   }
   return not_compared;
 }

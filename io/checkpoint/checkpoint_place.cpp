@@ -39,11 +39,12 @@ namespace {
   if (is_being_written(folder)) {
     fail_input(name, "another run is writing there, and has no checkpoint yet", "expected one that has stopped");
   }
-  if (!fs::exists(folder / "summary.json")) {
+  std::error_code error;
+  if (!fs::exists(folder / "summary.json", error)) {
     fail_input(name, "holds no checkpoint", "expected a checkpoint, or the folder of a run that wrote one");
   }
   const fs::path previous = folder / previous_checkpoint_name;
-  if (fs::exists(previous)) {
+  if (fs::exists(previous, error)) {
     fail_input(name, fmt::format("has lost its {}", checkpoint_name),
                fmt::format("the one before it is there: carom resume {} --t-end T", shell_word(previous.string())));
   }

@@ -40,6 +40,25 @@ class Compare : public test::CommandTest {
 TEST_F(Compare, WhatCannotBePrintedIsNoDifference) {
   EXPECT_EQ(carom("run small.toml --quiet -o run").status, 0);
   expect_error("$C compare run run >/dev/full", 2, "cannot write to standard output: No space left on device");
+  shell(
+      "rm -f gone; { trap '' PIPE; until [ -e gone ]; do sleep 0.01; done; $C compare run run 2>said; echo $? >status; "
+      "} "
+      "| { exec <&-; : >gone; }; true");
+  EXPECT_EQ(text_of(at("status")) + text_of(at("said")),
+            "2\ncarom: error: cannot write to standard output: Broken pipe\n");
+}
+
+// Not even by the superuser, who has no leave to look everywhere then.
+TEST_F(Compare, WhatCannotBeLookedIntoIsNoDifference) {
+  EXPECT_EQ(carom("run small.toml --quiet -o run").status, 0);
+  for (const std::string command : {"compare shut run", "compare run shut", "resume shut"}) {
+    const Outcome o = shell(
+        "cp -r run shut; chmod 0 shut; as=; [ $(id -u) != 0 ] || as='setpriv "
+        "--bounding-set=-dac_override,-dac_read_search'; $as $C " +
+        command + "; status=$?; chmod 755 shut; rm -r shut; exit $status");
+    EXPECT_EQ(o.status, 2) << command;
+    EXPECT_THAT(o.err, testing::MatchesRegex("carom: error: shut: holds .*; expected .*\n")) << command;
+  }
 }
 
 TEST_F(Compare, PeriodicPlacesDifferByTheNearestImage) {
