@@ -13,6 +13,7 @@
 #include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
 #include "core/scene/picture_look.hpp"
+#include "io/files/folder_lock.hpp"
 #include "io/files/output_file.hpp"
 #include "io/files/output_folder.hpp"
 #include "io/movie/movie.hpp"
@@ -74,21 +75,27 @@ FrameStyle style_of(const Recording& recording, const RenderOptions& options, co
   return frame_style(recording.trajectory.string(), survey.box, look, survey.seen);
 }
 
-// A folder beside the file it is for, removed with whatever is left in it.
+// A folder beside the file it is for, in one that another carom render of this file cannot have at the same time;
+// removed with whatever is left in it.
 struct WorkFolder {
-  explicit WorkFolder(const fs::path& file) : path(file.string() + ".unfinished") {
+  explicit WorkFolder(const fs::path& file) : held(file.string() + ".unfinished"), path(held / "made") {
     std::error_code error;
-    fs::remove_all(path, error);
-    fs::create_directories(path, error);
+    fs::create_directories(held, error);
+    if (!error && !lock.take(held)) {
+      fail_input(file.string(), "another carom render is making it now", "expected another file (-o)");
+    }
+    if (!error) fs::remove_all(path, error);  // of one that was killed
+    if (!error) fs::create_directory(path, error);
     if (error) throw RunError(fmt::format("cannot make the folder {}: {}", path.string(), error.message()));
   }
   WorkFolder(const WorkFolder&) = delete;
   WorkFolder& operator=(const WorkFolder&) = delete;
   ~WorkFolder() {
     std::error_code ignored;
-    fs::remove_all(path, ignored);
+    fs::remove_all(held, ignored);
   }
-  fs::path path;
+  fs::path held, path;
+  FolderLock lock;  // on held
 };
 
 // What a file's extension asks for.

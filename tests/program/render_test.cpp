@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "io/files/folder_lock.hpp"
 #include "tests/support/program_support.hpp"
 
 namespace carom {
@@ -94,12 +95,28 @@ TEST_F(LongRender, OneThatIsStoppedLeavesNothingBehind) {
   run_small("--set output.movie=false --set output.every=2e-4");
   fs::create_directories(at("film"));
   const Outcome o = shell(
-      "$C render out -o film/movie.mp4 & P=$!; until ls film/movie.mp4.unfinished/* >/dev/null 2>&1 || ! kill -0 $P; "
-      "do sleep 0.01; "
-      "done; "
+      "$C render out -o film/movie.mp4 & P=$!; until ls film/movie.mp4.unfinished/made/* >/dev/null 2>&1 || ! kill -0 "
+      "$P; do sleep 0.01; done; "
       "kill -TERM $P; wait $P");
   EXPECT_EQ(o.status, 128 + 15);
   EXPECT_TRUE(fs::is_empty(at("film")));
+}
+
+// The second took away the first one's work, and asked whether the disk was full.
+TEST_F(Render, TwoDoNotMakeOneFileAtOnce) {
+  run_small("--set output.movie=false");
+  fs::create_directories(at("a.svg.unfinished/made"));
+  write("a.svg.unfinished/made/frame", "of the first");
+  {
+    FolderLock first;
+    ASSERT_TRUE(first.take(at("a.svg.unfinished")));
+    const Outcome o = carom("render out -o a.svg");
+    EXPECT_EQ(o.status, 2);
+    EXPECT_EQ(o.err, "carom: error: a.svg: another carom render is making it now; expected another file (-o)\n");
+    EXPECT_EQ(text_of(at("a.svg.unfinished/made/frame")), "of the first");
+  }
+  EXPECT_EQ(carom("render out -o a.svg").status, 0) << "what one that was killed has left is no hindrance";
+  EXPECT_FALSE(fs::exists(at("a.svg.unfinished")));
 }
 
 TEST_F(LongRender, TheScenesMovieLooksAsItSays) {
