@@ -16,6 +16,7 @@
 #include "io/files/output_file.hpp"
 #include "io/files/shell_word.hpp"
 #include "run/engine/strict_engine.hpp"
+#include "run/loop/stop_signals.hpp"
 #include "run/recordings/run_view.hpp"
 
 namespace carom {
@@ -95,9 +96,10 @@ void SceneRun::say_what_a_stop_waits_for() {
   if (!stop_seen_) stop_seen_ = WallClock::now();
   if (seconds_since(*stop_seen_) < patience_s) return;
   wait_told_ = true;
-  tell(listener_.note, fmt::format("stops when the frames of this window are made, up to t = {:g}; another Ctrl-C, or "
-                                   "SIGINT, ends it at once",
-                                   engine_.progress().time));
+  // Where the wall time has run out, a first signal asks for the same stop again.
+  const char* const how = stop_wished() ? "another Ctrl-C, or SIGINT, ends" : "Ctrl-C, or SIGINT, twice ends";
+  tell(listener_.note, fmt::format("stops when the frames of this window are made, up to t = {:g}; {} it at once",
+                                   engine_.progress().time, how));
 }
 
 void SceneRun::take_output_warnings() {

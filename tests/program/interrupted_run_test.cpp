@@ -324,6 +324,9 @@ series = true
   EXPECT_EQ(o.err,
             "carom: stops when the frames of this window are made, up to t = 10; another Ctrl-C, or SIGINT, ends it at "
             "once\n");
+  const Outcome late = carom("run rest.toml -o late --max-walltime 0.2");
+  EXPECT_EQ(late.status, 0);
+  EXPECT_THAT(late.err, HasSubstr("up to t = 10; Ctrl-C, or SIGINT, twice ends it at once\n")) << "no signal yet";
 }
 
 }  // namespace
