@@ -28,7 +28,7 @@ struct H5mdForm {
 };
 
 // Writes the quantity of these places to buffer, one after the other (x, y and perhaps z in turn), the fill values of
-// h5md_layout.hpp where there is no disk. Throws RunError for a number that single precision does not reach.
+// h5md_layout.hpp where there is no disk. Throws InputError for a number that single precision does not reach.
 void fill_with_values(H5mdQuantity quantity, const H5mdForm& form, const Disks& disks, const H5mdPlaces& places,
                       std::vector<unsigned char>& buffer);
 

@@ -10,11 +10,11 @@
 
 namespace carom {
 
-// The nearest number of single precision; 0 below 1e-45. Throws RunError, which names the file, beyond 3.4e38.
+// The nearest number of single precision; 0 below 1e-45. Throws InputError, which names the file, beyond 3.4e38.
 inline float single_of(double value, std::string_view file) {
   const auto single = static_cast<float>(value);
   if (std::isinf(single)) {
-    throw RunError(
+    throw InputError(
         fmt::format("{} in single precision has no place for {:g}: it ends at 3.4e38; expected "
                     "output.precision = \"double\"",
                     file, value));

@@ -45,7 +45,7 @@ class XyzWriter {
   XyzWriter(const std::string& path, XyzPlan plan, const FileMark& from);
 
   // One frame: the selected disks in order of id, numbers with as many digits as it takes to read them back. Throws
-  // RunError for a number that single precision does not reach.
+  // InputError for a number that single precision does not reach.
   void write(const DisksInPieces& disks, const BlockRunner& run = run_in_order);
   void write(const Disks& disks, double time, const BlockRunner& run = run_in_order) {
     write(WholeDisks(disks, time), run);

@@ -177,7 +177,7 @@ precision = "single"
 )");
   const std::string command = CAROM_PROGRAM " run " + scene + " --quiet --force -o " + (folder.path() / "out").string();
   const auto [status, text] = shell(command);
-  EXPECT_EQ(status, 1);
+  EXPECT_EQ(status, 2);
   EXPECT_THAT(text, HasSubstr("trajectory.h5 in single precision has no place for -1e+39: it ends at 3.4e38; expected "
                               "output.precision = \"double\"\n"));
   EXPECT_THAT(shell(command + " --set output.trajectory=xyz").second,
