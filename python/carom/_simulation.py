@@ -116,7 +116,8 @@ class Simulation:
         """Calls call(self) during step and run, after the first step that ends at or beyond each multiple of interval
         (simulated time, > 0) from now on, and from the time of what from_bytes takes up; once after a step that passes
         several. In time stepping a millionth of the interval too early is in time, as sums of dt are rounded. What it
-        raises ends the run there, and the simulation can go on."""
+        raises ends the run there, and the simulation can go on. A call that makes steps itself is called in these too,
+        from within itself."""
         try:
             beyond = bool(interval > 0.0)
             interval = float(interval)
