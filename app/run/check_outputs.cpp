@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <stdexcept>
+#include <system_error>
 
 #include "app/run/held_signals.hpp"
 #include "core/base/check.hpp"
@@ -19,6 +19,7 @@
 #include "io/checkpoint/checkpoint.hpp"
 #include "io/files/checkpoint_names.hpp"
 #include "io/files/child_process.hpp"
+#include "io/files/scratch_folder.hpp"
 #include "io/movie/frame.hpp"
 #include "io/movie/movie.hpp"
 #include "io/plots/gnuplot.hpp"
@@ -61,26 +62,6 @@ double cpu_seconds_with_children() {
   }
   return seconds;
 }
-
-// A folder of its own that goes away again.
-class Workshop {
- public:
-  Workshop() {
-    std::error_code error;
-    std::string path = (fs::temp_directory_path(error) / "carom-check-XXXXXX").string();
-    if (!error && mkdtemp(path.data()) != nullptr) path_ = path;
-  }
-  Workshop(const Workshop&) = delete;
-  Workshop& operator=(const Workshop&) = delete;
-  ~Workshop() {
-    std::error_code error;
-    if (!path_.empty()) fs::remove_all(path_, error);
-  }
-  const fs::path& path() const { return path_; }  // empty where there is none
-
- private:
-  fs::path path_;
-};
 
 // A coordinate that went on in a straight line, brought back by the sides.
 double folded(double c, double low, double high, bool periodic) {
@@ -367,9 +348,11 @@ OutputForesight foresee_outputs(const Scene& scene, const EngineChoice& choice, 
   if (scene.output.movie && !finds_ffmpeg()) f.missing.emplace_back(without_ffmpeg);
   if (plots > 0.0 && !draws) f.missing.emplace_back(without_gnuplot);
   const HeldSignals held;  // until the workshop is gone
-  const Workshop workshop;
   try {
-    if (workshop.path().empty()) throw RunError("there is no folder for temporary files");
+    std::error_code error;
+    const fs::path temporary = fs::temp_directory_path(error);
+    if (error) throw RunError("there is no folder for temporary files");
+    const ScratchFolder workshop(temporary, "carom-check");
     rehearse_files(scene, choice, tried, population.mean, workshop.path(), f);
     if (draws) f.plots_s = plots * plot_seconds(workshop.path());
   } catch (const std::runtime_error& error) {  // a full disk, or a folder that takes no files

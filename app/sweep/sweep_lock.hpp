@@ -6,6 +6,7 @@
 namespace carom {
 
 // Holds a folder that exists for as long as it lives; it goes with the process. File systems without locks have none.
+// The folder itself is locked: FolderLock would leave a file among the results of the sweep.
 class SweepLock {
  public:
   // Throws InputError where another process holds the folder.

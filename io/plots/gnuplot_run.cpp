@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -12,6 +9,7 @@
 #include "core/base/check.hpp"
 #include "io/files/child_process.hpp"
 #include "io/files/output_file.hpp"
+#include "io/files/scratch_folder.hpp"
 #include "io/files/shown_text.hpp"
 
 namespace carom {
@@ -19,24 +17,6 @@ namespace carom {
 namespace fs = std::filesystem;
 
 namespace {
-
-// A scratch folder beside the picture, where there must be room anyway; it goes away with everything in it.
-struct ScratchFolder {
-  explicit ScratchFolder(const fs::path& picture) {
-    std::string name = (picture.parent_path() / "carom-plot-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) {
-      throw RunError(fmt::format("cannot make the folder {}: {}", name, std::strerror(errno)));
-    }
-    path = fs::absolute(name);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  fs::path path;
-};
 
 // gnuplot reports no full disk; a picture without its end shows it.
 bool is_whole(const std::string& picture) {
@@ -67,16 +47,17 @@ std::string gnuplot_quoted(const std::string& text) {
 bool run_gnuplot(const std::string& script, const std::string& data, const std::vector<GnuplotPicture>& pictures) {
   const std::string gnuplot = find_program("gnuplot");
   if (gnuplot.empty()) return false;
-  const ScratchFolder scratch(pictures.front().path);
-  const std::string log = scratch.path / "log";
-  write_file(scratch.path / "data", data);
-  write_file(scratch.path / "script", script);
-  ChildProcess child({gnuplot, "--default-settings", "script"}, scratch.path, log);
+  // Beside the picture, where there must be room anyway.
+  const ScratchFolder scratch(fs::path(pictures.front().path).parent_path(), "carom-plot");
+  const std::string log = scratch.path() / "log";
+  write_file(scratch.path() / "data", data);
+  write_file(scratch.path() / "script", script);
+  ChildProcess child({gnuplot, "--default-settings", "script"}, scratch.path(), log);
   const int status = child.wait();
   std::vector<std::string> contents;
   for (const GnuplotPicture& picture : pictures) {
     std::ostringstream bytes;
-    bytes << std::ifstream(scratch.path / picture.name, std::ios::binary).rdbuf();
+    bytes << std::ifstream(scratch.path() / picture.name, std::ios::binary).rdbuf();
     contents.push_back(bytes.str());
     if (status == 0 && is_whole(contents.back())) continue;
     const std::string said = last_line(log);

@@ -13,6 +13,7 @@
 
 #include "core/base/check.hpp"
 #include "io/files/output_file.hpp"
+#include "tests/support/folder_refusal.hpp"
 #include "tests/support/test_folder.hpp"
 
 namespace carom {
@@ -27,12 +28,7 @@ class OutputFolderTest : public ::testing::Test {
 
   static std::string text(const fs::path& path) { return test::text_of(path); }
   std::string refusal(const fs::path& folder, bool force) const {
-    try {
-      check_output_folder(folder, base_ / "input.toml", force);
-    } catch (const InputError& e) {
-      return e.what();
-    }
-    return "";
+    return test::folder_refusal(folder, base_ / "input.toml", force);
   }
   void run(const fs::path& folder, const std::string& result, bool force) const {
     OutputFolder out(folder, base_ / "input.toml", force);
@@ -56,7 +52,6 @@ TEST_F(OutputFolderTest, ResultsAppearOnlyWhenFinished) {
   EXPECT_FALSE(fs::exists(folder / "carom-unfinished"));
 }
 
-// A program may run scenes side by side: each folder is locked for one of them, whatever the others begin and end.
 TEST_F(OutputFolderTest, AFailedRunLeavesNothing) {
   {
     OutputFolder out(base_ / "a" / "b", base_ / "input.toml", false);

@@ -16,6 +16,7 @@
 #include "core/base/check.hpp"
 #include "io/files/output_file.hpp"
 #include "io/files/output_folder.hpp"
+#include "tests/support/folder_refusal.hpp"
 #include "tests/support/test_folder.hpp"
 
 namespace carom {
@@ -28,19 +29,13 @@ class SharedFolder : public ::testing::Test {
  protected:
   SharedFolder() { write_file(input_, "scene"); }
 
-  std::string refusal(const fs::path& folder, bool force) const {
-    try {
-      check_output_folder(folder, input_, force);
-    } catch (const InputError& e) {
-      return e.what();
-    }
-    return "";
-  }
+  std::string refusal(const fs::path& folder, bool force) const { return test::folder_refusal(folder, input_, force); }
   const test::TestFolder folder_{::testing::UnitTest::GetInstance()->current_test_info()->name()};
   const fs::path base_ = folder_.path();
   const fs::path input_ = base_ / "input.toml";
 };
 
+// A program may run scenes side by side: each folder is locked for one of them, whatever the others begin and end.
 TEST_F(SharedFolder, ThreadsHaveFoldersOfTheirOwn) {
   std::atomic<int> refused = 0;
   {
