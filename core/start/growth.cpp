@@ -108,15 +108,19 @@ class Growth {
   // size, and never to it.
   void check_play() const {
     constexpr double rounding = 1e-12;
-    const std::pair<bool, double> axes[] = {{box_.periodic_x(), box_.width}, {box_.periodic_y(), box_.height}};
+    const struct {
+      bool periodic;
+      double length;
+      const char* word;
+    } axes[] = {{box_.periodic_x(), box_.width, "wide"}, {box_.periodic_y(), box_.height, "high"}};
     for (std::size_t i = 0; i < target_.size(); ++i) {
       if (fixed_[i] != 0) continue;
-      for (const auto& [periodic, length] : axes) {
+      for (const auto& [periodic, length, word] : axes) {
         if (periodic || 2.0 * target_[i] < (1.0 - rounding) * length) continue;
         fail_input(place_in_group(scene_, group_of(scene_, static_cast<DiskId>(i)), "positions"),
                    fmt::format("\"growth\" comes to no end where a disk fills the box from wall to wall: disk {} has "
                                "the diameter {:g}, and the box is {:g} {}",
-                               i, 2.0 * target_[i], length, &length == &axes[0].second ? "wide" : "high"),
+                               i, 2.0 * target_[i], length, word),
                    "expected a larger box, smaller disks, or a lattice, \"square\" or \"hexagonal\"");
       }
     }
