@@ -4,42 +4,65 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <charconv>
-#include <cstdint>
+#include <concepts>
+#include <cstring>
 #include <limits>
 #include <utility>
 
+#include "core/base/same_bits.hpp"
 #include "core/scene/disk_group.hpp"
 #include "io/trajectory/disk_selection.hpp"
+#include "io/trajectory/shortest_decimal.hpp"
 #include "io/trajectory/single_precision.hpp"
 
 namespace carom {
 
 namespace {
 
-// The text of one line, on the stack.
-class LineText {
+// Of a number, and of a whole one, with the space before it.
+constexpr std::size_t number_bytes = 1 + shortest_decimal_bytes, whole_number_bytes = 12;
+// Of a line: seven numbers, four whole ones, and "X", three times " 0" and the line's end.
+constexpr std::size_t line_bytes = 7 * number_bytes + 4 * whole_number_bytes + 8;
+
+// Writes text into memory that has room for it.
+class TextWriter {
  public:
-  std::string_view text() const { return {buffer_.data(), static_cast<std::size_t>(end_ - buffer_.data())}; }
-  void add(std::string_view part) { end_ = std::copy(part.begin(), part.end(), end_); }
+  explicit TextWriter(char* begin) : end_(begin) {}
+  char* end() const { return end_; }
+
+  template <std::size_t bytes>
+  void add(const char (&part)[bytes]) {
+    std::memcpy(end_, part, bytes - 1);
+    end_ += bytes - 1;
+  }
   // A space and a number, with as many digits as it takes to come back as the same bits of its type.
-  template <class Number>
+  template <std::floating_point Number>
   void add_number(Number value) {
-    *end_++ = ' ';
-    end_ = std::to_chars(end_, buffer_.data() + buffer_.size(), value).ptr;
+    *end_ = ' ';
+    end_ = write_shortest(end_ + 1, value);
+  }
+  template <std::integral Number>
+  void add_number(Number value) {
+    *end_ = ' ';
+    end_ = std::to_chars(end_ + 1, end_ + whole_number_bytes, value).ptr;
+  }
+  // Copies all of a buffer, whose first bytes count: quicker than as many as it takes.
+  template <std::size_t size>
+  void add_first(const std::array<char, size>& buffer, std::size_t bytes) {
+    std::memcpy(end_, buffer.data(), size);
+    end_ += bytes;
   }
 
  private:
-  // Seven doubles of up to 24 characters, six whole numbers of up to 11, and what stands between them.
-  std::array<char, 288> buffer_;
-  char* end_ = buffer_.data();
+  char* end_;
 };
 
 std::string number_text(double value) {
-  LineText text;
+  std::array<char, number_bytes> buffer;
+  TextWriter text(buffer.data());
   text.add_number(value);
-  return std::string(text.text());
+  return {buffer.data(), text.end()};
 }
 
 // Lines are made in blocks of so many, some hundreds of KB of text, so many blocks at the same time.
@@ -49,16 +72,24 @@ constexpr std::size_t blocks_at_once = 16;
 constexpr std::size_t lines_ahead = 16;
 
 // Radius and mass are often the same for many disks in a row: their text is made once.
-struct RepeatedNumber {
-  double value = std::numeric_limits<double>::quiet_NaN();
-  std::string text;
-  void add_to(LineText& line, double next) {
-    if (std::bit_cast<std::uint64_t>(next) != std::bit_cast<std::uint64_t>(value)) {
-      value = next;
-      text = number_text(value);
+class RepeatedNumbers {
+ public:
+  void add_to(TextWriter& line, double first, double second) {
+    if (!same_bits(first, first_) || !same_bits(second, second_)) {
+      first_ = first;
+      second_ = second;
+      TextWriter text(buffer_.data());
+      text.add_number(first);
+      text.add_number(second);
+      bytes_ = static_cast<std::size_t>(text.end() - buffer_.data());
     }
-    line.add(text);
+    line.add_first(buffer_, bytes_);
   }
+
+ private:
+  double first_ = std::numeric_limits<double>::quiet_NaN(), second_ = first_;
+  std::array<char, 2 * number_bytes> buffer_{};
+  std::size_t bytes_ = 0;
 };
 
 // Inlined, as g++ 12 leaves out calls of functions that do nothing but prefetch.
@@ -96,23 +127,23 @@ FileMark XyzWriter::mark() {
 }
 
 void XyzWriter::write_lines(const Disks& disks, const std::vector<std::size_t>& order, std::size_t begin,
-                            std::size_t end, std::string& text) const {
-  text.clear();
+                            std::size_t end, Lines& lines) const {
+  if (lines.text == nullptr) lines.text = std::make_unique_for_overwrite<char[]>(lines_of_block * line_bytes);
   const auto in_single = [](double value) { return single_of(value, "trajectory.xyz"); };
   const auto in_double = [](double value) { return value; };
-  if (plan_.single) return add_lines(disks, order, begin, end, in_single, text);
-  add_lines(disks, order, begin, end, in_double, text);
+  if (plan_.single) return add_lines(disks, order, begin, end, in_single, lines);
+  add_lines(disks, order, begin, end, in_double, lines);
 }
 
 template <class Precision>
 void XyzWriter::add_lines(const Disks& disks, const std::vector<std::size_t>& order, std::size_t begin, std::size_t end,
-                          Precision in_precision, std::string& text) const {
-  RepeatedNumber radius, mass;
+                          Precision in_precision, Lines& lines) const {
+  TextWriter line(lines.text.get());
+  RepeatedNumbers radius_and_mass;
   for (std::size_t k = begin; k < end; ++k) {
     const std::size_t i = order[k];
     if (k + lines_ahead < end) prefetch_disk(disks, order[k + lines_ahead]);
     const DiskId id = disks.id[i];
-    LineText line;
     line.add("X");
     line.add_number(in_precision(disks.x[i]));
     line.add_number(in_precision(disks.y[i]));
@@ -120,8 +151,7 @@ void XyzWriter::add_lines(const Disks& disks, const std::vector<std::size_t>& or
     line.add_number(in_precision(disks.vx[i]));
     line.add_number(in_precision(disks.vy[i]));
     line.add(" 0");
-    radius.add_to(line, disks.radius_of(i));
-    mass.add_to(line, disks.mass_of(i));
+    radius_and_mass.add_to(line, disks.radius_of(i), disks.mass_of(i));
     line.add_number(id);
     if (!plan_.group_ends.empty()) line.add_number(group_of(plan_.group_ends, id));
     if (plan_.rounds != nullptr) {
@@ -131,8 +161,8 @@ void XyzWriter::add_lines(const Disks& disks, const std::vector<std::size_t>& or
     }
     if (plan_.spins) line.add_number(in_precision(disks.spin_of(i)));
     line.add("\n");
-    text += line.text();
   }
+  lines.bytes = static_cast<std::size_t>(line.end() - lines.text.get());
 }
 
 Count XyzWriter::count_of(const DisksInPieces& disks) const {
@@ -162,20 +192,20 @@ void XyzWriter::write(const DisksInPieces& disks, const BlockRunner& run) {
 // While the lines of some blocks are made, one task writes those of the blocks before.
 void XyzWriter::write_blocks(const Disks& disks, const std::vector<std::size_t>& order, const BlockRunner& run) {
   const std::size_t blocks = (order.size() + lines_of_block - 1) / lines_of_block;
-  texts_.resize(std::min(blocks, blocks_at_once));
-  written_.resize(texts_.size());
+  made_.resize(std::min(blocks, blocks_at_once));
+  written_.resize(made_.size());
   std::size_t held = 0;  // of written_
   const auto write_held = [&] {
-    for (std::size_t b = 0; b < held; ++b) file_.write(written_[b]);
+    for (std::size_t b = 0; b < held; ++b) file_.write({written_[b].text.get(), written_[b].bytes});
   };
   for (std::size_t first = 0; first < blocks; first += blocks_at_once) {
     const std::size_t count = std::min(blocks_at_once, blocks - first);
     run(count + 1, [&](std::size_t task) {
       if (task == 0) return write_held();
       const std::size_t begin = (first + task - 1) * lines_of_block;
-      write_lines(disks, order, begin, std::min(begin + lines_of_block, order.size()), texts_[task - 1]);
+      write_lines(disks, order, begin, std::min(begin + lines_of_block, order.size()), made_[task - 1]);
     });
-    texts_.swap(written_);
+    made_.swap(written_);
     held = count;
   }
   write_held();

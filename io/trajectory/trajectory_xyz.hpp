@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <fstream>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -57,20 +58,26 @@ class XyzWriter {
   void close() { file_.close(); }
 
  private:
+  // Lines of a frame, one after the other; memory for the longest ones.
+  struct Lines {
+    std::unique_ptr<char[]> text;
+    std::size_t bytes = 0;
+  };
+
   Count count_of(const DisksInPieces& disks) const;  // how many are selected
   void write_lines(const Disks& disks, const std::vector<std::size_t>& order, std::size_t begin, std::size_t end,
-                   std::string& text) const;
+                   Lines& lines) const;
   template <class Precision>
   void add_lines(const Disks& disks, const std::vector<std::size_t>& order, std::size_t begin, std::size_t end,
-                 Precision in_precision, std::string& text) const;
+                 Precision in_precision, Lines& lines) const;
   void write_blocks(const Disks& disks, const std::vector<std::size_t>& order, const BlockRunner& run);
 
   OutputFile file_;
   Count frames_ = 0;
   XyzPlan plan_;
   std::string lattice_;  // the constant part of each frame's second line
-  // Of the blocks whose lines are made, and of those being written; kept for their capacity.
-  std::vector<std::string> texts_, written_;
+  // Of the blocks whose lines are made, and of those being written; kept, so that memory is asked for once.
+  std::vector<Lines> made_, written_;
 };
 
 using XyzFrame = TrajectoryFrame;

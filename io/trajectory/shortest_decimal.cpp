@@ -1,0 +1,211 @@
+#include "io/trajectory/shortest_decimal.hpp"
+
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+namespace carom {
+
+namespace {
+
+template <class Number>
+char* write_by_library(char* out, Number value) {
+  return std::to_chars(out, out + shortest_decimal_bytes, value).ptr;
+}
+
+#if defined(__SSE2__)
+
+__extension__ using Wide = unsigned __int128;
+
+// A number is c * 2^q, c a whole number of fraction_bits + 1 bits.
+template <class Number>
+struct Parts;
+
+template <>
+struct Parts<double> {
+  using Bits = std::uint64_t;
+  static constexpr int fraction_bits = 52, exponent_bits = 11;
+  static constexpr std::uint64_t lift = 1;
+};
+
+template <>
+struct Parts<float> {
+  using Bits = std::uint32_t;
+  static constexpr int fraction_bits = 23, exponent_bits = 8;
+  static constexpr std::uint64_t lift = 100'000'000;  // to 15 digits and more
+};
+
+// Of the numbers in [2^b, 2^(b+1)). With 10^k the largest power of ten that is not above 2^q, c * 2^q is
+// c * five / 2^shift units of 10^k, where five = 5^-k has less than 64 bits: all that follows is exact.
+struct Binade {
+  std::uint64_t five;
+  int shift;
+  int exponent;  // of ten, of the first of 17 digits
+};
+
+constexpr int first_binade = -14, binades = 38;  // from below 1e-4 to beyond 1e7
+
+template <class Number>
+constexpr std::array<Binade, binades> make_binades() {
+  std::array<Binade, binades> all{};
+  int lifted = 0;
+  for (std::uint64_t lift = Parts<Number>::lift; lift > 1; lift /= 10) ++lifted;
+  for (int j = 0; j < binades; ++j) {
+    const int q = first_binade + j - Parts<Number>::fraction_bits;
+    const int k = (q * 1'262'611) >> 22;  // log10(2) * q, rounded down
+    all[static_cast<std::size_t>(j)] = {1, k - q, k + 16 - lifted};
+    for (int i = k; i < 0; ++i) all[static_cast<std::size_t>(j)].five *= 5;
+  }
+  return all;
+}
+
+template <class Number>
+inline constexpr std::array<Binade, binades> all_binades = make_binades<Number>();
+
+// All bits where the condition holds: what is chosen by it costs no branch, which would go wrong half the time.
+constexpr std::uint64_t mask(bool condition) {
+  return -static_cast<std::uint64_t>(condition);
+}
+
+// Of the numbers nearer to c units of 2^q than to its neighbours, in units of 10^k: a multiple of ten where there is
+// one (at most one is), else the nearest whole number, the even one of two.
+// Powers of two, whose lower neighbour is nearer, need no other way: those of these binades are as long as that.
+std::uint64_t shortest(std::uint64_t c, const Binade& binade) {
+  const int s = binade.shift;
+  const Wide product = Wide{c} * binade.five;
+  const auto low = static_cast<std::uint64_t>(product);
+  const std::uint64_t one = std::uint64_t{1} << s;
+  const auto whole = static_cast<std::uint64_t>(product >> s);
+  const std::uint64_t tens = whole - whole % 10;
+  // Twice the distances to the multiples of ten around it; never odd as binade.five, which is a unit of 2^q.
+  const std::uint64_t below = 2 * (low - (tens << s)), above = 20 * one - below;
+  const std::uint64_t down = mask(below < binade.five), up = mask(above < binade.five);
+  const std::uint64_t nearest = whole + ((2 * (low & (one - 1)) + one - 1 + (whole & 1)) >> s >> 1);
+  return (nearest & ~(down | up)) | ((tens + (up & 10)) & (down | up));
+}
+
+// The digits of a number below 10^16, a byte each, the first digit first.
+__m128i sixteen_digits(std::uint64_t number) {
+  const std::uint64_t upper = number / 100'000'000;
+  const __m128i eights =
+      _mm_set_epi64x(static_cast<long long>(number - upper * 100'000'000), static_cast<long long>(upper));
+  // Each part is divided by a power of ten times a power of two, and the rest put behind the quotient.
+  __m128i part = _mm_srli_epi64(_mm_mul_epu32(eights, _mm_set1_epi64x(3'518'437'209)), 45);  // / 10^4
+  const __m128i fours =
+      _mm_or_si128(part, _mm_slli_epi64(_mm_sub_epi64(eights, _mm_mul_epu32(part, _mm_set1_epi64x(10'000))), 32));
+  part = _mm_srli_epi16(_mm_mulhi_epu16(fours, _mm_set1_epi16(5243)), 3);  // / 100
+  const __m128i twos =
+      _mm_or_si128(part, _mm_slli_epi32(_mm_sub_epi16(fours, _mm_mullo_epi16(part, _mm_set1_epi16(100))), 16));
+  part = _mm_mulhi_epu16(twos, _mm_set1_epi16(6554));  // / 10
+  return _mm_or_si128(part, _mm_slli_epi16(_mm_sub_epi16(twos, _mm_mullo_epi16(part, _mm_set1_epi16(10))), 8));
+}
+
+// The shortest decimal of a number, d.ddd * 10^exponent.
+struct Decimal {
+  std::uint64_t first;  // digit
+  __m128i others;       // the next sixteen digits, a byte each
+  int digits;           // up to the last that is not 0
+  int exponent;
+};
+
+template <class Number>
+Decimal decimal_of(std::uint64_t c, const Binade& binade) {
+  constexpr std::uint64_t ten_to_16 = 10'000'000'000'000'000, lift = Parts<Number>::lift;
+  std::uint64_t number = shortest(c, binade) * lift;
+  int exponent = binade.exponent;
+  for (int least_digits = lift > 1 ? 15 : 16; least_digits < 17; ++least_digits) {
+    const bool lacks_one = number < ten_to_16;
+    number += mask(lacks_one) & (9 * number);
+    exponent -= static_cast<int>(lacks_one);
+  }
+  const std::uint64_t first = number / ten_to_16;
+  const __m128i others = sixteen_digits(number - first * ten_to_16);
+  const auto zeros = static_cast<unsigned>(_mm_movemask_epi8(_mm_cmpeq_epi8(others, _mm_setzero_si128())));
+  return {first, others, static_cast<int>(std::bit_width(((~zeros & 0xffffU) << 1) | 1U)), exponent};
+}
+
+// How the first eight characters of a number with a point are made of its first eight digits, by its exponent.
+struct Point {
+  std::uint64_t before, text, after;  // masks of the digits before and after the point, and what stands between
+  int shift;                          // of the digits after it, in bits
+  int zeros;                          // before the first digit
+};
+
+constexpr int first_exponent = -4, exponents = 11;
+
+constexpr std::uint64_t first_bytes(int count) {
+  return count == 8 ? ~std::uint64_t{0} : (std::uint64_t{1} << 8 * count) - 1;
+}
+
+constexpr std::array<Point, exponents> make_points() {
+  std::array<Point, exponents> all{};
+  for (int j = 0; j < exponents; ++j) {
+    const int e = first_exponent + j;
+    Point& point = all[static_cast<std::size_t>(j)];
+    if (e < 0) point = {0, 0x3030'3030'2e30 & first_bytes(1 - e), first_bytes(8), 8 * (1 - e), -e};  // 0.0000
+    if (e >= 0) point = {first_bytes(e + 1), std::uint64_t{'.'} << 8 * (e + 1), ~first_bytes(e + 2), 8, 0};
+  }
+  return all;
+}
+
+constexpr std::array<Point, exponents> all_points = make_points();
+
+// Others are longer than with an exponent, as 1e-04 and 3e+05, or have too many digits before the point.
+bool can_have_point(const Decimal& decimal) {
+  const bool is_long = decimal.digits > 1 || (decimal.exponent > first_exponent && decimal.exponent < 5);
+  return is_long && static_cast<unsigned>(decimal.exponent - first_exponent) < exponents;
+}
+
+char* write_with_point(char* out, bool negative, const Decimal& decimal) {
+  *out = '-';
+  out += static_cast<int>(negative);
+  const Point& point = all_points[static_cast<unsigned>(decimal.exponent - first_exponent)];
+  const __m128i others = _mm_or_si128(decimal.others, _mm_set1_epi8('0'));
+  const std::uint64_t digits = (decimal.first + '0') | (static_cast<std::uint64_t>(_mm_cvtsi128_si64(others)) << 8);
+  const std::uint64_t front = (digits & point.before) | point.text | ((digits << point.shift) & point.after);
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(out + point.zeros + 2), others);
+  std::memcpy(out, &front, sizeof front);
+  const int whole_digits = decimal.exponent + 1;
+  return out + (decimal.digits <= whole_digits ? whole_digits : decimal.digits + 1 + point.zeros);
+}
+
+template <class Number>
+char* write(char* out, Number value) {
+  using P = Parts<Number>;
+  constexpr typename P::Bits one = 1;
+  const auto bits = std::bit_cast<typename P::Bits>(value);
+  const auto biased = static_cast<unsigned>((bits >> P::fraction_bits) & ((one << P::exponent_bits) - 1));
+  const unsigned j = biased - static_cast<unsigned>(first_binade + (1 << (P::exponent_bits - 1)) - 1);
+  if (j >= binades) return write_by_library(out, value);
+  const std::uint64_t c = (bits & ((one << P::fraction_bits) - 1)) | (one << P::fraction_bits);
+  const Decimal decimal = decimal_of<Number>(c, all_binades<Number>[j]);
+  if (!can_have_point(decimal)) return write_by_library(out, value);
+  return write_with_point(out, (bits >> (P::fraction_bits + P::exponent_bits)) != 0, decimal);
+}
+
+#else
+
+template <class Number>
+char* write(char* out, Number value) {
+  return write_by_library(out, value);
+}
+
+#endif
+
+}  // namespace
+
+char* write_shortest(char* out, double value) {
+  return write(out, value);
+}
+
+char* write_shortest(char* out, float value) {
+  return write(out, value);
+}
+
+}  // namespace carom
