@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "core/disks/cell_index.hpp"
@@ -49,20 +48,41 @@ void begin_axis(AxisTally& axis, const std::vector<double>& coordinate, const st
   }
 }
 
-// Disks begin to end - 1. Returns how many moves were too long.
-Count look_along(AxisTally& axis, const std::vector<double>& coordinate, const std::vector<DiskId>& id, double period,
+// Since the look before.
+struct Moves {
+  Count doubtful = 0;  // too long
+  Count unknown = 0;   // of disks that are not followed
+  Moves& operator+=(const Moves& other) {
+    doubtful += other.doubtful;
+    unknown += other.unknown;
+    return *this;
+  }
+};
+
+// Disks begin to end - 1.
+Moves look_along(AxisTally& axis, const std::vector<double>& coordinate, const std::vector<DiskId>& id, double period,
                  std::size_t begin, std::size_t end) {
-  Count doubtful = 0;
+  // Their ids lie all over memory, which is asked for so many disks before.
+  constexpr std::size_t ahead_in_memory = 64;
+  const std::size_t known = axis.sixteenth.size();
+  Moves moves;
+  if (known == 0) return {0, end - begin};  // of an axis that is not periodic, too
   for (std::size_t i = begin; i < end; ++i) {
-    if (id[i] >= axis.sixteenth.size() || axis.sixteenth[id[i]] == not_followed) continue;
+    if (i + ahead_in_memory < end && id[i + ahead_in_memory] < known) {
+      __builtin_prefetch(&axis.sixteenth[id[i + ahead_in_memory]], 1);
+    }
+    if (id[i] >= known || axis.sixteenth[id[i]] == not_followed) {
+      ++moves.unknown;
+      continue;
+    }
     std::int32_t& unwrapped = axis.sixteenth[id[i]];
     // Of all coordinates that wrap to the present one, the nearest: -8 to 7 parts away.
     const std::int32_t ahead = (part_of(coordinate[i], period) - unwrapped) & (parts - 1);
     const std::int32_t move = ahead < parts / 2 ? ahead : ahead - parts;
-    doubtful += std::abs(move) > most_parts ? 1 : 0;
+    moves.doubtful += std::abs(move) > most_parts ? 1 : 0;
     unwrapped += move;
   }
-  return doubtful;
+  return moves;
 }
 
 double displacement(const AxisTally& axis, double coordinate, DiskId id, double period) {
@@ -82,15 +102,23 @@ void follow_along(AxisTally& axis, const std::vector<double>& coordinate, const 
 }
 
 void follow_rounds_of(DisplacementTally& tally, const Disks& d, const Domain& box, const BlockRunner& run) {
-  std::vector<Count> doubtful((d.size() + look_block - 1) / look_block, 0);
-  run(doubtful.size(), [&](std::size_t b) {
+  struct BlockMoves {
+    Moves x, y;
+  };
+  std::vector<BlockMoves> blocks((d.size() + look_block - 1) / look_block);
+  run(blocks.size(), [&](std::size_t b) {
     const std::size_t begin = b * look_block, end = std::min(begin + look_block, d.size());
-    doubtful[b] =
-        look_along(tally.x, d.x, d.id, box.width, begin, end) + look_along(tally.y, d.y, d.id, box.height, begin, end);
+    blocks[b] = {look_along(tally.x, d.x, d.id, box.width, begin, end),
+                 look_along(tally.y, d.y, d.id, box.height, begin, end)};
   });
-  tally.doubtful = std::accumulate(doubtful.begin(), doubtful.end(), tally.doubtful);
-  if (box.periodic_x()) follow_along(tally.x, d.x, d.id, box.width);
-  if (box.periodic_y()) follow_along(tally.y, d.y, d.id, box.height);
+  BlockMoves all;
+  for (const BlockMoves& block : blocks) {
+    all.x += block.x;
+    all.y += block.y;
+  }
+  tally.doubtful += all.x.doubtful + all.y.doubtful;
+  if (box.periodic_x() && all.x.unknown > 0) follow_along(tally.x, d.x, d.id, box.width);
+  if (box.periodic_y() && all.y.unknown > 0) follow_along(tally.y, d.y, d.id, box.height);
 }
 
 }  // namespace
@@ -116,8 +144,8 @@ void begin_displacement(DisplacementTally& tally, const DisksInPieces& disks, co
 }
 
 void look_at(DisplacementTally& tally, const Disks& d, const Domain& box, double time) {
-  tally.doubtful += look_along(tally.x, d.x, d.id, box.width, 0, d.size());
-  tally.doubtful += look_along(tally.y, d.y, d.id, box.height, 0, d.size());
+  tally.doubtful += look_along(tally.x, d.x, d.id, box.width, 0, d.size()).doubtful;
+  tally.doubtful += look_along(tally.y, d.y, d.id, box.height, 0, d.size()).doubtful;
   tally.looked_at = time;
 }
 
