@@ -68,8 +68,10 @@ std::string number_text(double value) {
 // Lines are made in blocks of so many, some hundreds of KB of text, so many blocks at the same time.
 constexpr std::size_t lines_of_block = 4096;
 constexpr std::size_t blocks_at_once = 16;
-// In order of id, disks lie all over memory: what a line is made of is prefetched so many lines before.
-constexpr std::size_t lines_ahead = 16;
+// Storage places a block of what goes to rows.
+constexpr std::size_t rows_of_block = std::size_t{1} << 16;
+// In order of id, disks lie all over memory, which is asked for so many disks before.
+constexpr std::size_t disks_ahead = 32;
 
 // Radius and mass are often the same for many disks in a row: their text is made once.
 class RepeatedNumbers {
@@ -91,17 +93,6 @@ class RepeatedNumbers {
   std::array<char, 2 * number_bytes> buffer_{};
   std::size_t bytes_ = 0;
 };
-
-// Inlined, as g++ 12 leaves out calls of functions that do nothing but prefetch.
-[[gnu::always_inline]] inline void prefetch_disk(const Disks& d, std::size_t i) {
-  __builtin_prefetch(&d.x[i]);
-  __builtin_prefetch(&d.y[i]);
-  __builtin_prefetch(&d.vx[i]);
-  __builtin_prefetch(&d.vy[i]);
-  __builtin_prefetch(&d.id[i]);
-  if (!d.radius.empty()) __builtin_prefetch(&d.radius[i]);
-  if (!d.mass.empty()) __builtin_prefetch(&d.mass[i]);
-}
 
 // The constant part of each frame's second line.
 std::string lattice_text(const XyzPlan& plan) {
@@ -126,40 +117,58 @@ FileMark XyzWriter::mark() {
   return {file_.name(), frames_, file_.bytes()};
 }
 
-void XyzWriter::write_lines(const Disks& disks, const std::vector<std::size_t>& order, std::size_t begin,
-                            std::size_t end, Lines& lines) const {
+// In order of storage, which waits for one place in memory a disk; lines made of columns would wait for one a column.
+void XyzWriter::fill_rows(const Disks& disks, const BlockRunner& run) {
+  std::vector<std::size_t> order = by_id(disks);
+  if (!plan_.select.all()) {
+    std::erase_if(order, [&](std::size_t i) { return !is_selected(plan_.select, disks, i); });
+  }
+  rows_.resize(order.size());
+  row_of_disk_.assign(disks.size(), no_disk);
+  for (std::size_t k = 0; k < order.size(); ++k) row_of_disk_[order[k]] = static_cast<std::uint32_t>(k);
+  run((disks.size() + rows_of_block - 1) / rows_of_block, [&](std::size_t b) {
+    const std::size_t end = std::min((b + 1) * rows_of_block, disks.size());
+    for (std::size_t i = b * rows_of_block; i < end; ++i) {
+      const std::uint32_t later = i + disks_ahead < end ? row_of_disk_[i + disks_ahead] : no_disk;
+      if (later != no_disk) __builtin_prefetch(&rows_[later], 1);
+      if (row_of_disk_[i] == no_disk) continue;
+      rows_[row_of_disk_[i]] = {disks.x[i],  disks.y[i],  disks.vx[i],
+                                disks.vy[i], disks.id[i], static_cast<std::uint32_t>(i)};
+    }
+  });
+}
+
+void XyzWriter::write_lines(const Disks& disks, std::size_t begin, std::size_t end, Lines& lines) const {
   if (lines.text == nullptr) lines.text = std::make_unique_for_overwrite<char[]>(lines_of_block * line_bytes);
   const auto in_single = [](double value) { return single_of(value, "trajectory.xyz"); };
   const auto in_double = [](double value) { return value; };
-  if (plan_.single) return add_lines(disks, order, begin, end, in_single, lines);
-  add_lines(disks, order, begin, end, in_double, lines);
+  if (plan_.single) return add_lines(disks, begin, end, in_single, lines);
+  add_lines(disks, begin, end, in_double, lines);
 }
 
 template <class Precision>
-void XyzWriter::add_lines(const Disks& disks, const std::vector<std::size_t>& order, std::size_t begin, std::size_t end,
-                          Precision in_precision, Lines& lines) const {
+void XyzWriter::add_lines(const Disks& disks, std::size_t begin, std::size_t end, Precision in_precision,
+                          Lines& lines) const {
   TextWriter line(lines.text.get());
   RepeatedNumbers radius_and_mass;
   for (std::size_t k = begin; k < end; ++k) {
-    const std::size_t i = order[k];
-    if (k + lines_ahead < end) prefetch_disk(disks, order[k + lines_ahead]);
-    const DiskId id = disks.id[i];
+    const Row& row = rows_[k];
     line.add("X");
-    line.add_number(in_precision(disks.x[i]));
-    line.add_number(in_precision(disks.y[i]));
+    line.add_number(in_precision(row.x));
+    line.add_number(in_precision(row.y));
     line.add(" 0");
-    line.add_number(in_precision(disks.vx[i]));
-    line.add_number(in_precision(disks.vy[i]));
+    line.add_number(in_precision(row.vx));
+    line.add_number(in_precision(row.vy));
     line.add(" 0");
-    radius_and_mass.add_to(line, disks.radius_of(i), disks.mass_of(i));
-    line.add_number(id);
-    if (!plan_.group_ends.empty()) line.add_number(group_of(plan_.group_ends, id));
+    radius_and_mass.add_to(line, disks.radius_of(row.place), disks.mass_of(row.place));
+    line.add_number(row.id);
+    if (!plan_.group_ends.empty()) line.add_number(group_of(plan_.group_ends, row.id));
     if (plan_.rounds != nullptr) {
-      line.add_number(rounds_of(plan_.rounds->x, id));
-      line.add_number(rounds_of(plan_.rounds->y, id));
+      line.add_number(rounds_of(plan_.rounds->x, row.id));
+      line.add_number(rounds_of(plan_.rounds->y, row.id));
       line.add(" 0");
     }
-    if (plan_.spins) line.add_number(in_precision(disks.spin_of(i)));
+    if (plan_.spins) line.add_number(in_precision(disks.spin_of(row.place)));
     line.add("\n");
   }
   lines.bytes = static_cast<std::size_t>(line.end() - lines.text.get());
@@ -179,19 +188,16 @@ void XyzWriter::write(const DisksInPieces& disks, const BlockRunner& run) {
   head.append(number_text(disks.time()), 1);
   file_.write(head + '\n');
   disks.visit([&](const Disks& some) {
-    std::vector<std::size_t> order = by_id(some);
-    if (!plan_.select.all()) {
-      std::erase_if(order, [&](std::size_t i) { return !is_selected(plan_.select, some, i); });
-    }
-    write_blocks(some, order, run);
+    fill_rows(some, run);
+    write_blocks(some, run);
   });
   file_.flush();
   ++frames_;
 }
 
 // While the lines of some blocks are made, one task writes those of the blocks before.
-void XyzWriter::write_blocks(const Disks& disks, const std::vector<std::size_t>& order, const BlockRunner& run) {
-  const std::size_t blocks = (order.size() + lines_of_block - 1) / lines_of_block;
+void XyzWriter::write_blocks(const Disks& disks, const BlockRunner& run) {
+  const std::size_t blocks = (rows_.size() + lines_of_block - 1) / lines_of_block;
   made_.resize(std::min(blocks, blocks_at_once));
   written_.resize(made_.size());
   std::size_t held = 0;  // of written_
@@ -203,7 +209,7 @@ void XyzWriter::write_blocks(const Disks& disks, const std::vector<std::size_t>&
     run(count + 1, [&](std::size_t task) {
       if (task == 0) return write_held();
       const std::size_t begin = (first + task - 1) * lines_of_block;
-      write_lines(disks, order, begin, std::min(begin + lines_of_block, order.size()), made_[task - 1]);
+      write_lines(disks, begin, std::min(begin + lines_of_block, rows_.size()), made_[task - 1]);
     });
     made_.swap(written_);
     held = count;

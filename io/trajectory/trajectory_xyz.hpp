@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <fstream>
 #include <memory>
 #include <string>
@@ -58,6 +59,13 @@ class XyzWriter {
   void close() { file_.close(); }
 
  private:
+  // What a line shows, of a disk at this place in its columns.
+  struct Row {
+    double x, y, vx, vy;
+    DiskId id;
+    std::uint32_t place;
+  };
+
   // Lines of a frame, one after the other; memory for the longest ones.
   struct Lines {
     std::unique_ptr<char[]> text;
@@ -65,17 +73,19 @@ class XyzWriter {
   };
 
   Count count_of(const DisksInPieces& disks) const;  // how many are selected
-  void write_lines(const Disks& disks, const std::vector<std::size_t>& order, std::size_t begin, std::size_t end,
-                   Lines& lines) const;
+  void fill_rows(const Disks& disks, const BlockRunner& run);
+  void write_lines(const Disks& disks, std::size_t begin, std::size_t end, Lines& lines) const;
   template <class Precision>
-  void add_lines(const Disks& disks, const std::vector<std::size_t>& order, std::size_t begin, std::size_t end,
-                 Precision in_precision, Lines& lines) const;
-  void write_blocks(const Disks& disks, const std::vector<std::size_t>& order, const BlockRunner& run);
+  void add_lines(const Disks& disks, std::size_t begin, std::size_t end, Precision in_precision, Lines& lines) const;
+  void write_blocks(const Disks& disks, const BlockRunner& run);
 
   OutputFile file_;
   Count frames_ = 0;
   XyzPlan plan_;
   std::string lattice_;  // the constant part of each frame's second line
+  // Of the selected disks that are being written, in order of id; and the row of each disk of these, by its place.
+  std::vector<Row> rows_;
+  std::vector<std::uint32_t> row_of_disk_;
   // Of the blocks whose lines are made, and of those being written; kept, so that memory is asked for once.
   std::vector<Lines> made_, written_;
 };
