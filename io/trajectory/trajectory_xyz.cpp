@@ -117,15 +117,20 @@ FileMark XyzWriter::mark() {
   return {file_.name(), frames_, file_.bytes()};
 }
 
-// In order of storage, which waits for one place in memory a disk; lines made of columns would wait for one a column.
-void XyzWriter::fill_rows(const Disks& disks, const BlockRunner& run) {
+// Sets the row of each disk; returns how many there are. Its order takes memory, and goes before rows take theirs.
+std::size_t XyzWriter::number_rows(const Disks& disks) {
   std::vector<std::size_t> order = by_id(disks);
   if (!plan_.select.all()) {
     std::erase_if(order, [&](std::size_t i) { return !is_selected(plan_.select, disks, i); });
   }
-  rows_.resize(order.size());
   row_of_disk_.assign(disks.size(), no_disk);
   for (std::size_t k = 0; k < order.size(); ++k) row_of_disk_[order[k]] = static_cast<std::uint32_t>(k);
+  return order.size();
+}
+
+// In order of storage, which waits for one place in memory a disk; lines made of columns would wait for one a column.
+void XyzWriter::fill_rows(const Disks& disks, const BlockRunner& run) {
+  rows_.resize(number_rows(disks));
   run((disks.size() + rows_of_block - 1) / rows_of_block, [&](std::size_t b) {
     const std::size_t end = std::min((b + 1) * rows_of_block, disks.size());
     for (std::size_t i = b * rows_of_block; i < end; ++i) {

@@ -73,6 +73,7 @@ class XyzWriter {
   };
 
   Count count_of(const DisksInPieces& disks) const;  // how many are selected
+  std::size_t number_rows(const Disks& disks);
   void fill_rows(const Disks& disks, const BlockRunner& run);
   void write_lines(const Disks& disks, std::size_t begin, std::size_t end, Lines& lines) const;
   template <class Precision>
