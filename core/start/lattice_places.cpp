@@ -43,6 +43,18 @@ double within_sides(double c, double radius, double length) {
   return radius < length - radius ? std::clamp(c, radius, length - radius) : 0.5 * length;
 }
 
+// Where decimals far from the corner are rounded, a region that a row of disks fills comes out narrower than the row,
+// by this slack at most. Its lattice then takes so much more, and `at` keeps the disks within.
+Domain widened(Domain box, double slack) {
+  if (!box.periodic_x()) box.width += slack;
+  if (!box.periodic_y()) box.height += slack;
+  return box;
+}
+
+std::optional<Lattice> lattice_in(const Domain& box, bool square, Count count, double diameter) {
+  return square ? square_lattice(box, count, diameter) : hexagonal_lattice(box, count, diameter);
+}
+
 [[noreturn]] void fail_lattice(const Scene& scene, std::size_t group, double radius, const std::string& room,
                                Count capacity) {
   const DiskGroup& g = scene.groups[group];
@@ -67,12 +79,14 @@ LatticePlaces::LatticePlaces(const Scene& scene, std::size_t group, double radiu
   box_ = box;
   origin_ = origin;
   const std::string room = fmt::format("the {} of {} x {}", region ? "region" : "box", box.width, box.height);
-  if (!holds_disk(box, radius, place_slack(scene.box, radius))) fail_lattice(scene, group, radius, room, 0);
-  const auto lattice =
-      square ? square_lattice(box, count_, 2.0 * radius) : hexagonal_lattice(box, count_, 2.0 * radius);
+  const double slack = place_slack(scene.box, radius);
+  if (!holds_disk(box, radius, slack)) fail_lattice(scene, group, radius, room, 0);
+  std::optional<Lattice> lattice = lattice_in(box, square, count_, 2.0 * radius);
+  const Domain most = region ? widened(box, slack) : box;
+  if (!lattice) lattice = lattice_in(most, square, count_, 2.0 * radius);
   if (!lattice) {
     fail_lattice(scene, group, radius, room,
-                 square ? square_capacity(box, 2.0 * radius) : hexagonal_capacity(box, 2.0 * radius));
+                 square ? square_capacity(most, 2.0 * radius) : hexagonal_capacity(most, 2.0 * radius));
   }
   lattice_ = *lattice;
 }

@@ -248,6 +248,36 @@ TEST(StartRegion, OneRowMayFillARectangleInDecimals) {
   }
 }
 
+// Likewise of three in a row, and of two such rows on a hexagonal lattice, three and a half diameters wide. They
+// overlap by no more than decimals are rounded there.
+TEST(StartRegion, RowsOfSeveralMayFillARectangleInDecimals) {
+  const auto far_scene = [](const char* kind, int count, const std::string& bounds) {
+    const std::string text = scene_with(group(count, kind, "region = [" + bounds + "]\n"));
+    return replaced(replaced(text, "width = 40.0\nheight = 30.0", "width = 1e6\nheight = 1e6"), "radius = 0.5",
+                    "radius = 0.15");
+  };
+  const auto start = [&](const char* kind, int count, const std::string& bounds) {
+    const Scene scene = scene_from(far_scene(kind, count, bounds));
+    const Disks d = initial_state(scene).disks;
+    EXPECT_LT(max_overlap(d, scene.box), 1e-8) << "of their radii";
+    return d;
+  };
+  for (const char* low : {"100000.1", "100000.3", "300000.2", "700000.1"}) {
+    SCOPED_TRACE(low);
+    const double first = std::stod(low);
+    const Disks across = start("square", 3, fmt::format("{}, 1.0, {:.1f}, 1.3", low, first + 0.9));
+    const Disks upwards = start("square", 3, fmt::format("1.0, {}, 1.3, {:.1f}", low, first + 0.9));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double place = first + 0.15 + 0.3 * static_cast<double>(k);
+      EXPECT_NEAR(across.x.at(k), place, 1e-9) << k;
+      EXPECT_NEAR(upwards.y.at(k), place, 1e-9) << k;
+    }
+    const Disks rows = start("hexagonal", 6, fmt::format("{}, 1.0, {:.2f}, 1.6", low, first + 1.05));
+    EXPECT_NEAR(rows.x.at(5), first + 0.9, 1e-9);
+  }
+  EXPECT_THAT(complaint(far_scene("square", 4, "100000.1, 1.0, 100001.0, 1.3")), HasSubstr("expected at most 3"));
+}
+
 TEST(StartRegion, BadOnesAreNamedByLineAndKey) {
   const auto region = [](const std::string& kind, const std::string& value) {
     return complaint(scene_with(group(40, kind, "region = " + value + "\n")));
