@@ -1,6 +1,7 @@
 #include "io/files/folder_lock.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -42,6 +43,15 @@ struct flock whole_file() {
   return lock;
 }
 
+// Is the file of this descriptor still there? Another run that ends may take its folder away, with the file in it,
+// just before it is locked.
+bool is_there(int descriptor, const fs::path& file) {
+  struct stat opened {};
+  struct stat present {};
+  return fstat(descriptor, &opened) == 0 && stat(file.c_str(), &present) == 0 && opened.st_ino == present.st_ino &&
+         opened.st_dev == present.st_dev;
+}
+
 }  // namespace
 
 bool FolderLock::take(const fs::path& folder) {
@@ -50,9 +60,10 @@ bool FolderLock::take(const fs::path& folder) {
   const std::lock_guard guard(held.mutex);
   if (held.has(file)) return false;
   const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  if (descriptor < 0) return true;
+  if (descriptor < 0) return errno != ENOENT;
   struct flock lock = whole_file();
-  if (fcntl(descriptor, F_SETLK, &lock) != 0 && (errno == EACCES || errno == EAGAIN)) {
+  const bool is_held = fcntl(descriptor, F_SETLK, &lock) != 0 && (errno == EACCES || errno == EAGAIN);
+  if (is_held || !is_there(descriptor, file)) {
     ::close(descriptor);
     return false;
   }

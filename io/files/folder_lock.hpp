@@ -15,8 +15,8 @@ class FolderLock {
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
-  // Precondition: it holds none. False where another one has the folder, of this process or of another. File systems
-  // without locks have none, and let all have it.
+  // Precondition: it holds none. False where another one has the folder, of this process or of another, or had it and
+  // has just taken it away. File systems without locks have none, and let all have it.
   [[nodiscard]] bool take(const std::filesystem::path& folder);
   void give_up();
 

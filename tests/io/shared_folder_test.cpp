@@ -169,5 +169,13 @@ TEST_F(SharedFolder, WhoComesSecondTakesNothingAway) {
   EXPECT_FALSE(is_being_written(folder));
 }
 
+// A run that ends takes the folder away that another one is about to lock.
+TEST_F(SharedFolder, AFolderThatHasGoneIsNotLocked) {
+  FolderLock lock;
+  EXPECT_FALSE(lock.take(base_ / "gone"));
+  fs::create_directory(base_ / "there");
+  EXPECT_TRUE(lock.take(base_ / "there"));
+}
+
 }  // namespace
 }  // namespace carom
