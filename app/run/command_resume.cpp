@@ -42,19 +42,19 @@ void warn_of_other_scene(const CheckpointPlace& place, const RunRecord& record) 
 
 // Where the results go: -o, or where those of the run lie. What a program saved lies among files of its own: the
 // results go where those of a new run do.
-std::optional<fs::path> folder_of(const ResumeOptions& options, const ResumeFrom& from, const Scene& scene) {
+void take_folder(const ResumeOptions& options, const ResumeFrom& from, const Scene& scene, RunSettings& settings) {
   const bool of_program = is_of_program(from.checkpoint.record);
   if (!options.folder && of_program) {
-    const std::optional<fs::path> folder = usual_folder(scene, options.force);
-    if (folder && !options.quiet) print_note(fmt::format("results go to {}", folder->string()));
-    return folder;
+    take_usual_folder(scene, settings);
+    if (settings.folder && !options.quiet) print_note(fmt::format("results go to {}", settings.folder->string()));
+    return;
   }
   const fs::path folder = options.folder ? fs::path(*options.folder) : from.place.folder;
   std::error_code error;
   if (of_program || !fs::equivalent(folder, from.place.folder, error)) {
     check_output_folder(folder, from.place.file, options.force);
   }
-  return folder;
+  settings.folder = folder;
 }
 
 }  // namespace
@@ -81,7 +81,7 @@ int command_resume(const ResumeOptions& options) {
                               record.version, CAROM_VERSION));
   }
   if (!options.quiet && !is_of_program(record)) warn_of_other_scene(from.place, record);
-  settings.folder = folder_of(options, from, scene);
+  take_folder(options, from, scene, settings);
   return run_and_report(options, scene, std::move(settings), std::move(from), nullptr);
 }
 

@@ -21,23 +21,23 @@ namespace {
 namespace fs = std::filesystem;
 
 // Where the results go, -o or the usual folder, and which that is.
-std::optional<fs::path> folder_of(const RunOptions& options, const Scene& scene) {
+void take_folder(const RunOptions& options, const Scene& scene, RunSettings& settings) {
   if (options.folder) {
     check_output_folder(*options.folder, options.scene, options.force);
-    return fs::path(*options.folder);
+    settings.folder = *options.folder;
+    return;
   }
-  const std::optional<fs::path> folder = usual_folder(scene, options.force);
-  if (options.quiet || !folder) return folder;
-  const fs::path wanted = fs::path("out") / fs::path(options.scene).stem();
-  std::string note = fmt::format("results go to {}", folder->string());
-  if (*folder != wanted) {
+  take_usual_folder(scene, settings);
+  if (options.quiet || !settings.folder) return;
+  const fs::path wanted = usual_folder_name(options.scene);
+  std::string note = fmt::format("results go to {}", settings.folder->string());
+  if (*settings.folder != wanted) {
     const bool stopped = fs::exists(present_path(wanted, checkpoint_name)) && !fs::exists(wanted / "summary.json");
     note += fmt::format(" ({} holds another run; {})", wanted.string(),
                         stopped ? fmt::format("carom resume {} goes on with that", shell_word(wanted.string()))
                                 : "--force replaces it");
   }
   print_note(note);
-  return folder;
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ int command_run(const RunOptions& options) {
     for (const std::string& warning : scene_warnings(scene)) print_warning(warning);
     if (scene.run.automatic) print_note(choice_text(scene));
   }
-  settings.folder = folder_of(options, scene);
+  take_folder(options, scene, settings);
   setup = watch();
   return run_and_report(options, scene, std::move(settings), std::nullopt, std::move(setup));
 }

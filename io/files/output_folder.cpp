@@ -196,6 +196,12 @@ void check_unfinished(const fs::path& name, bool force) {
                   name.string(), unfinished.string(), remedy));
 }
 
+bool holds_lock_alone(const fs::path& folder) {
+  std::error_code error;
+  return std::all_of(fs::directory_iterator(folder, error), fs::directory_iterator(),
+                     [](const fs::directory_entry& entry) { return entry.path().filename() == folder_lock_name; });
+}
+
 }  // namespace
 
 bool holds_frames_only(const fs::path& frames) {
@@ -240,29 +246,27 @@ void check_output_folder(const fs::path& name, const fs::path& input, bool force
   check_unfinished(name, force);
 }
 
-fs::path free_output_folder(const fs::path& wanted, const fs::path& input) {
-  constexpr int patience = 10'000;
-  try {
-    check_output_folder(wanted, input, false);
-    return wanted;
-  } catch (const InputError&) {
-    std::error_code error;
-    if (!fs::is_directory(wanted, error)) throw;
-    for (int k = 2; k <= patience; ++k) {
-      const fs::path next = fmt::format("{}-{}", wanted.string(), k);
-      try {
-        check_output_folder(next, input, false);
-        return next;
-      } catch (const InputError&) {
-        if (!fs::exists(next, error)) throw;
-      }
+OutputFolder::OutputFolder(const fs::path& folder, const fs::path& input, bool force) {
+  begin(folder, input, force);
+}
+
+OutputFolder::OutputFolder(const UsualFolder& folder, const fs::path& input) {
+  for (fs::path next = folder.first_free;;) {
+    try {
+      begin(next, input, false);
+      return;
+    } catch (const InputError&) {
+      const fs::path other = free_output_folder(folder.usual, input);
+      if (other == next) throw;
+      next = other;
     }
-    throw;
   }
 }
 
-OutputFolder::OutputFolder(const fs::path& folder, const fs::path& input, bool force)
-    : folder_(normal(folder)), unfinished_(unfinished_of(folder_)) {
+// Nothing is held or left behind where it throws.
+void OutputFolder::begin(const fs::path& folder, const fs::path& input, bool force) {
+  folder_ = normal(folder);
+  unfinished_ = unfinished_of(folder_);
   check_output_folder(folder, input, force);
   std::error_code error;
   made_ = missing_folders(folder_);
@@ -272,6 +276,7 @@ OutputFolder::OutputFolder(const fs::path& folder, const fs::path& input, bool f
   make_folders(unfinished_, error);
   if (!error) {
     lock();
+    if (!force) check_still_free(folder, input);
     remove_all_but_lock(unfinished_, error);
   }
   if (!error && holds_pictures(folder_)) fs::create_directory(unfinished_ / old_pictures_name, error);
@@ -281,6 +286,23 @@ OutputFolder::OutputFolder(const fs::path& folder, const fs::path& input, bool f
   if (why == std::errc::no_space_on_device) fail("make the folder", unfinished_, why);
   throw InputError(
       fmt::format("{}: cannot be made: {}; expected a folder for the results (-o)", name(), why.message()));
+}
+
+// Another run may have begun and ended there since the folder was looked at: its results stay, and so does what it has
+// left to go on with. Precondition: the lock is held.
+void OutputFolder::check_still_free(const fs::path& name, const fs::path& input) {
+  if (!holds_lock_alone(unfinished_)) {
+    lock_.give_up();
+    check_unfinished(name, false);
+    fail_locked(name);
+  }
+  try {
+    for (const char* const result : result_names) check_place_of_result(name, result, input, false);
+  } catch (const InputError&) {
+    remove_unfinished();
+    lock_.give_up();
+    throw;
+  }
 }
 
 OutputFolder::OutputFolder(const fs::path& folder)

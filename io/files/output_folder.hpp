@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/files/folder_lock.hpp"
+#include "io/files/usual_folder.hpp"
 
 namespace carom {
 
@@ -25,6 +26,10 @@ class OutputFolder {
   // not. Files that are not Carom's are left alone always. Throws InputError if the folder cannot be made, RunError if
   // only the disk is full.
   OutputFolder(const std::filesystem::path& folder, const std::filesystem::path& input, bool force);
+
+  // Likewise in first_free, or, where another run has taken that by now, in the one that is free now. Runs of one scene
+  // that begin at once find the same one free, and write much later.
+  OutputFolder(const UsualFolder& folder, const std::filesystem::path& input);
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
 
@@ -54,6 +59,8 @@ class OutputFolder {
   void discard() { done_ = false; }
 
  private:
+  void begin(const std::filesystem::path& folder, const std::filesystem::path& input, bool force);
+  void check_still_free(const std::filesystem::path& name, const std::filesystem::path& input);
   void remove_unfinished() noexcept;
   void lock();
 
@@ -77,9 +84,5 @@ bool is_being_written(const std::filesystem::path& folder);
 // Throws InputError if `folder` cannot take the results of a run on the scene file `input`; changes nothing. To be
 // asked early, before anything takes time.
 void check_output_folder(const std::filesystem::path& folder, const std::filesystem::path& input, bool force);
-
-// The first of `wanted`, wanted-2, wanted-3 and so on that can take the results of a run. Throws InputError where none
-// could be made at all.
-std::filesystem::path free_output_folder(const std::filesystem::path& wanted, const std::filesystem::path& input);
 
 }  // namespace carom

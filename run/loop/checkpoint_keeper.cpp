@@ -41,8 +41,7 @@ void CheckpointKeeper::write_to(OutputFolder* folder, RunOutputs* outputs, bool 
 
 OutputFolder& CheckpointKeeper::folder() {
   if (folder_ == nullptr) {
-    const fs::path wanted = fs::path("out") / fs::path(before_.scene_file).stem();
-    folder_ = &own_folder_.emplace(free_output_folder(wanted, before_.scene_file), before_.scene_file, false);
+    folder_ = &own_folder_.emplace(usual_output_folder(before_.scene_file), before_.scene_file);
   }
   return *folder_;
 }

@@ -52,13 +52,17 @@ bool goes_elsewhere(const ResumeFrom& from, const fs::path& folder) {
 }
 
 RunFiles::RunFiles(const Scene& scene, const RunSettings& settings, const fs::path& path)
-    : folder(path, scene.file, settings.force), outputs(scene, folder, make_block_runner(settings.engine)) {
+    : folder(settings.usual ? OutputFolder(*settings.usual, scene.file)
+                            : OutputFolder(path, scene.file, settings.force)),
+      outputs(scene, folder, make_block_runner(settings.engine)) {
   write_file(folder.path("scene.toml"), resolved_toml(scene));
 }
 
 RunFiles::RunFiles(const Scene& scene, const RunSettings& settings, const fs::path& path, const ResumeFrom& from,
                    DiskId next_id)
-    : folder(goes_elsewhere(from, path) ? OutputFolder(path, from.place.file, settings.force) : OutputFolder(path)),
+    : folder(settings.usual               ? OutputFolder(*settings.usual, from.place.file)
+             : goes_elsewhere(from, path) ? OutputFolder(path, from.place.file, settings.force)
+                                          : OutputFolder(path)),
       outputs(is_of_program(from.checkpoint.record)
                   ? RunOutputs(scene, folder, make_block_runner(settings.engine), next_id)
                   : RunOutputs(scene, with_files(folder, path, from), make_block_runner(settings.engine),

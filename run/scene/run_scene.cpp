@@ -57,6 +57,13 @@ std::unique_ptr<Engine> engine_of(const Scene& scene, ResumeFrom* from, RunSetti
   return make_engine_at_start(settings.engine, scene, watch);
 }
 
+// The folder was named before the start was computed.
+void tell_if_elsewhere(const RunSettings& settings, const std::string& name) {
+  if (name == settings.folder->string()) return;
+  tell(settings.listener.note,
+       fmt::format("another run has taken {} meanwhile: results go to {}", settings.folder->string(), name));
+}
+
 // The engine at the run's start.
 struct StartedEngine {
   std::unique_ptr<Engine> engine;
@@ -93,6 +100,7 @@ RunOutcome carry_out(const Scene& scene, ResumeFrom* from, RunSettings settings)
     }
     if (settings.folder && from == nullptr) results.emplace(scene, settings, *settings.folder);
     RunFiles* const files = results ? &*results : nullptr;
+    if (files != nullptr && settings.usual) tell_if_elsewhere(settings, files->folder.name());
     const bool there = from != nullptr && settings.folder && !goes_elsewhere(*from, *settings.folder);
     if (files != nullptr) keeper.write_to(&files->folder, &files->outputs, there);
     // So that a run that is killed in its first minutes is not lost, nor the options with which it was resumed.
@@ -118,12 +126,15 @@ RunOutcome resume(const Scene& scene, ResumeFrom from, RunSettings settings) {
   return carry_out(scene, &from, std::move(settings));
 }
 
-std::optional<fs::path> usual_folder(const Scene& scene, bool force) {
-  if (!wants_files(scene)) return std::nullopt;
-  const fs::path wanted = fs::path("out") / fs::path(scene.file).stem();
-  if (!force) return free_output_folder(wanted, scene.file);
-  check_output_folder(wanted, scene.file, true);
-  return wanted;
+void take_usual_folder(const Scene& scene, RunSettings& settings) {
+  if (!wants_files(scene)) return;
+  if (settings.force) {
+    settings.folder = usual_folder_name(scene.file);
+    check_output_folder(*settings.folder, scene.file, true);
+    return;
+  }
+  settings.usual = usual_output_folder(scene.file);
+  settings.folder = settings.usual->first_free;
 }
 
 }  // namespace carom

@@ -13,6 +13,7 @@
 #include "core/scene/scene.hpp"
 #include "core/start/growth.hpp"
 #include "io/checkpoint/checkpoint_place.hpp"
+#include "io/files/output_folder.hpp"
 #include "run/engine/make_engine.hpp"
 #include "run/results/summary.hpp"
 
@@ -34,6 +35,7 @@ struct RunListener {
 struct RunSettings {
   EngineChoice engine = choose_engine("", std::nullopt);
   std::optional<std::filesystem::path> folder;                    // for the results; absent: no files
+  std::optional<UsualFolder> usual;                               // where that is its first_free: see OutputFolder
   double max_walltime = std::numeric_limits<double>::infinity();  // seconds from start_time
   bool force = false;                                             // replaces the results that the folder holds
   bool strict = false;                                            // the first warning of the physics ends the run
@@ -66,9 +68,9 @@ RunOutcome run(const Scene& scene, RunSettings settings);
 // Precondition: check_resumable (resume_checks.hpp). Throws as run() does.
 RunOutcome resume(const Scene& scene, ResumeFrom from, RunSettings settings);
 
-// The folder for the results of a scene where none was named: absent if the scene asks for no files, else out/NAME of
-// the scene's file, and the first free of out/NAME-2 and so on where that holds a run; with force always out/NAME.
-// Throws InputError where it cannot take them.
-std::optional<std::filesystem::path> usual_folder(const Scene& scene, bool force);
+// Sets the folder for the results of a scene where none was named: none if the scene asks for no files, else out/NAME
+// of the scene's file, and the first free of out/NAME-2 and so on where that holds a run; with settings.force always
+// out/NAME. Throws InputError where it cannot take them.
+void take_usual_folder(const Scene& scene, RunSettings& settings);
 
 }  // namespace carom

@@ -169,6 +169,48 @@ TEST_F(SharedFolder, WhoComesSecondTakesNothingAway) {
   EXPECT_FALSE(is_being_written(folder));
 }
 
+// Runs of one scene that begin at once: all found the same folder free. Those that come later take the next ones.
+TEST_F(SharedFolder, OfSeveralThatBeginAtOnceEachHasAFolder) {
+  const UsualFolder found{base_ / "out", base_ / "out"};
+  std::array<std::unique_ptr<OutputFolder>, 4> runs;
+  std::atomic<int> ready{0};
+  {
+    std::vector<std::jthread> threads;
+    for (std::unique_ptr<OutputFolder>& run : runs) {
+      threads.emplace_back([&] {
+        for (++ready; ready < 4;) std::this_thread::yield();
+        run = std::make_unique<OutputFolder>(found, input_);
+      });
+    }
+  }
+  std::vector<std::string> names;
+  for (const auto& run : runs) names.push_back(fs::path(run->name()).filename().string());
+  EXPECT_THAT(names, ::testing::UnorderedElementsAre("out", "out-2", "out-3", "out-4"));
+}
+
+// Two that last no longer than it takes to make a folder: one may begin and end between the other's look at the folder
+// and its lock, and what it has left stays.
+TEST_F(SharedFolder, OfTwoShortOnesTheFirstStays) {
+  for (int k = 0; k < 150; ++k) {
+    const fs::path folder = base_ / std::to_string(k);
+    std::atomic<int> ready{0}, done{0};
+    const auto make = [&] {
+      for (++ready; ready < 2;) std::this_thread::yield();
+      try {
+        OutputFolder run(folder, input_, false);
+        write_file(run.path("summary.json"), "{}");
+        run.finish();
+        ++done;
+      } catch (const InputError&) {
+      }
+    };
+    std::thread other(make);
+    make();
+    other.join();
+    ASSERT_EQ(done, 1) << k;
+  }
+}
+
 // A run that ends takes the folder away that another one is about to lock.
 TEST_F(SharedFolder, AFolderThatHasGoneIsNotLocked) {
   FolderLock lock;

@@ -45,6 +45,25 @@ TEST(Simulation, HasTheBitsOfARun) {
   }
 }
 
+// Two runs of a scene find the same folder free, each before its start is computed.
+TEST(Run, TakesTheNextFolderWhereAnotherRunHasTakenItsOwn) {
+  const test::TestFolder folder("next_folder");
+  const std::filesystem::path usual = folder.path() / "two_disks";
+  const Scene scene = load_scene(scenes + "two_disks.toml", {});
+  RunSettings settings;
+  settings.engine = choice("reference", 1);
+  settings.usual = UsualFolder{usual, usual};
+  settings.folder = usual;
+  std::optional<OutputFolder> other;
+  settings.listener.ready = [&] { other.emplace(usual, scene.file, false); };
+  std::string said;
+  settings.listener.note = [&](std::string_view note) { said = note; };
+  const RunOutcome outcome = run(scene, settings);
+  EXPECT_EQ(outcome.folder, usual.string() + "-2");
+  EXPECT_EQ(said, "another run has taken " + usual.string() + " meanwhile: results go to " + outcome.folder);
+  EXPECT_TRUE(std::filesystem::exists(outcome.folder + "/summary.json"));
+}
+
 TEST(Simulation, WritesNoFilesAndStopsWhereAsked) {
   Simulation simulation(gas("pairwise"), choice());
   simulation.run_until(1.0);
