@@ -63,6 +63,13 @@ struct SpawnSettings {
   posix_spawnattr_t attributes;
 };
 
+// Of a child that does not start there is one error, whether it is the program or the log that cannot be opened.
+void check_log(const std::string& path) {
+  const int log = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
+  if (log < 0) throw RunError(fmt::format("cannot write {}: {}", path, std::strerror(errno)));
+  ::close(log);
+}
+
 constexpr const char* parent_name = "CAROM_PARENT";
 
 // The environment of this process, and its process id, for a child that must not outlive it.
@@ -106,6 +113,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, const std:
   ::close(ends[0]);
   if (error != 0) {
     close_input();
+    check_log(log_path);
     throw RunError(fmt::format("cannot start {}: {}", arguments[0], std::strerror(error)));
   }
 }

@@ -70,6 +70,20 @@ TEST_F(Child, OneInARelativeFolderOfThePathIsStartedFromAnywhere) {
   EXPECT_EQ(ChildProcess({tool}, at("elsewhere"), at("log")).wait(), 0);
 }
 
+// There is one error for the program and for the log: the one that cannot be opened is named.
+TEST_F(Child, WhatDoesNotLetItStartIsNamed) {
+  const auto said = [&](const std::string& program, const std::string& log) -> std::string {
+    try {
+      const ChildProcess child({program}, folder_.path().string(), log);
+    } catch (const RunError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(said("/bin/true", at("none/log")), "cannot write " + at("none/log") + ": No such file or directory");
+  EXPECT_EQ(said(at("none"), at("log")), "cannot start " + at("none") + ": No such file or directory");
+}
+
 TEST_F(Child, IsFedAndItsEndIsTold) {
   ChildProcess counting = shell("wc -c > counted; pwd; exit 7");
   const std::string text(1'000'000, 'x');
