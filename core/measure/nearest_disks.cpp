@@ -10,6 +10,10 @@ namespace {
 
 constexpr std::size_t disks_a_leaf = 16;
 constexpr std::size_t most_at_once = 256;  // nodes
+// A disk's nearest image is among so many to each side of it, as places are in the box or no further than a period
+// beyond it; in a long box very many more are nearer than the sixth neighbour. Rows of images that shear moves differ
+// from each other.
+constexpr double images_a_side = 2.0;
 
 double outside(double c, double low, double high) {
   return std::max(std::max(low - c, c - high), 0.0);
@@ -76,10 +80,11 @@ class NearestDisks::Search {
   NearestNeighbours find() {
     const Domain& box = all_.box_;
     const Node& root = all_.nodes_[0];
-    images(own_.y, box.periodic_y() ? box.height : 0.0, root.low.y, root.high.y, [&](double y, double row) {
+    const double rows = box.shear.acts() ? HUGE_VAL : images_a_side;
+    images(own_.y, box.periodic_y() ? box.height : 0.0, rows, root.low.y, root.high.y, [&](double y, double row) {
       double x = own_.x;
       if (box.shear.acts() && row != 0.0) x = wrap(x + row * box.shear.offset, box.width);
-      images(x, box.periodic_x() ? box.width : 0.0, root.low.x, root.high.x, [&](double column, double) {
+      images(x, box.periodic_x() ? box.width : 0.0, images_a_side, root.low.x, root.high.x, [&](double column, double) {
         look({column, y}, 0, 0, all_.centres_.size());
       });
     });
@@ -87,13 +92,13 @@ class NearestDisks::Search {
   }
 
  private:
-  // Calls see(c + k period, k) for k = 0, 1, -1, 2 and so on, up to those further than the sixth neighbour from all
-  // that lies between low and high.
+  // Calls see(c + k period, k) for k = 0, 1, -1, 2 and so on to -last, up to those further than the sixth neighbour
+  // from all that lies between low and high.
   template <class See>
-  void images(double c, double period, double low, double high, See&& see) {
+  void images(double c, double period, double last, double low, double high, See&& see) {
     see(c, 0.0);
     if (period == 0.0) return;
-    for (double k = 1.0;; k += 1.0) {
+    for (double k = 1.0; k <= last; k += 1.0) {
       bool near = false;
       for (const double image : {k, -k}) {
         const double place = c + image * period;

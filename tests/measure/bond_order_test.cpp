@@ -127,6 +127,25 @@ TEST(BondOrder, InAFlatShearedBoxIsFoundAtOnce) {
   }
 }
 
+// Without shear the images of a row are nearer than the sixth neighbour up to 10^11 rows away: they are those of the
+// rows beside the box again, and are not gone through.
+TEST(BondOrder, InALongBoxIsFoundAtOnce) {
+  for (const bool tall : {false, true}) {
+    const Domain box = test::box_of(tall ? 1.0 : 1e12, tall ? 1e12 : 1.0, test::periodic_along(true, true));
+    test::Draws draws(8);
+    Disks d;
+    for (DiskId id = 0; id < 8; ++id) {
+      append(d, {draws.in(0.0, box.width), draws.in(0.0, box.height), 0, 0, 0.1, 1.0, id});
+    }
+    const std::vector<Vec2> psi = bond_orders(d, box);
+    for (std::size_t i = 0; i < d.size(); ++i) {
+      const std::complex<double> expected = order_among_all(d, i, box);
+      EXPECT_NEAR(psi[i].x, expected.real(), 1e-9) << i;
+      EXPECT_NEAR(psi[i].y, expected.imag(), 1e-9) << i;
+    }
+  }
+}
+
 // Disks at one place have no direction to each other.
 TEST(BondOrder, DisksAtOnePlaceAddNothing) {
   const Domain box = test::box_of(8.0, 8.0);
