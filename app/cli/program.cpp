@@ -31,6 +31,11 @@ void check_started_ranks(int wanted, int started) {
              "expected the number that mpirun -n says, or no --ranks");
 }
 
+void warn_of_lone_ranks(const CarryOptions& options) {
+  const std::string warning = warning_of_lone_ranks();
+  if (!warning.empty() && !options.quiet) print_warning(warning);
+}
+
 // A run on several ranks is started anew by MPI, unless it was already.
 struct Dispatch {
   int argc;
@@ -39,12 +44,14 @@ struct Dispatch {
 
   int operator()(RunOptions options) const {
     if (options.ranks) check_other_processes_have(options.scene);
+    if (lead == nullptr) warn_of_lone_ranks(options);
     if (options.ranks && lead == nullptr) return start_ranks(*options.ranks, argc, argv);
     if (options.ranks) check_started_ranks(*options.ranks, ranks_of(*lead));
     options.lead = lead;
     return command_run(options);
   }
   int operator()(ResumeOptions options) const {
+    if (lead == nullptr) warn_of_lone_ranks(options);
     if (options.ranks && lead == nullptr) return start_ranks(*options.ranks, argc, argv);
     if (options.ranks) check_started_ranks(*options.ranks, ranks_of(*lead));
     options.lead = lead;

@@ -172,6 +172,23 @@ int start_ranks(int ranks, int argc, const char* const* argv) {
   return status_of(status);
 }
 
+std::string warning_of_lone_ranks() {
+  // Of Open MPI, and of all others that start processes by PMI.
+  constexpr std::array<std::array<const char*, 2>, 2> launchers{
+      {{"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"}, {"PMI_SIZE", "PMI_RANK"}}};
+  for (const auto& [size, rank] : launchers) {
+    const char* const processes = std::getenv(size);
+    const char* const own = std::getenv(rank);
+    if (processes == nullptr || std::atoi(processes) < 2) continue;
+    if (own != nullptr && std::atoi(own) != 0) return "";
+    return fmt::format(
+        "{} = {}: so many processes of this program each do the whole run; expected carom-mpi in place of carom, which "
+        "shares it among them",
+        size, processes);
+  }
+  return "";
+}
+
 void tell_starter() {
   const char* const starter = std::getenv(starter_name);
   if (starter == nullptr) return;

@@ -50,6 +50,19 @@ TEST_F(CommandLine, BadUsageIsOneLineWithStatusTwo) {
   EXPECT_THAT(files_in(""), ElementsAre("small.toml")) << "nothing is left behind";
 }
 
+// Each would do the whole run, and take a folder of its own.
+TEST_F(CommandLine, SeveralProcessesOfAProgramThatRunsAloneAreWarnedOf) {
+  const std::string run = "$C run small.toml --threads 1 --set run.t_end=0.1 ";
+  const std::string warning =
+      " = 4: so many processes of this program each do the whole run; expected carom-mpi in place of carom";
+  EXPECT_THAT(shell("OMPI_COMM_WORLD_SIZE=4 OMPI_COMM_WORLD_RANK=0 " + run + "-o a").err,
+              HasSubstr("warning: OMPI_COMM_WORLD_SIZE" + warning));
+  EXPECT_THAT(shell("PMI_SIZE=4 " + run + "-o b").err, HasSubstr("warning: PMI_SIZE" + warning));
+  EXPECT_THAT(shell("PMI_SIZE=4 PMI_RANK=1 " + run + "-o c").err, Not(HasSubstr(warning)));
+  EXPECT_THAT(shell("PMI_SIZE=1 " + run + "-o d").err, Not(HasSubstr("so many processes")));
+  EXPECT_THAT(shell("PMI_SIZE=4 $C resume a --t-end 0.2 --threads 1").err, HasSubstr("PMI_SIZE" + warning));
+}
+
 TEST_F(LongCommandLine, OtherBadUsageOfRunIsOneLineWithStatusTwo) {
   const Usages cases{
       {"run --methd pairwise small.toml", "(nearest: --method)"},
