@@ -221,7 +221,8 @@ int command_check(const CheckOptions& options) {
   const bool tried = found.growth_seconds <= longest_growth;
   if (tried && grows(scene)) initial = within_memory(scene, [&] { return make_initial_state(choice, scene); });
   found.start_seconds = seconds_since(start);
-  for (const std::string& warning : validity_of(scene, found.smallest_radius, fastest_speed(initial.disks)))
+  for (const std::string& warning :
+       validity_warnings_at_start(scene, found.smallest_radius, fastest_speed(initial.disks)))
     print_warning(warning);
   found.steps = foresee_steps(scene, initial.disks);
   found.population = foresee_population(scene, initial.disks);

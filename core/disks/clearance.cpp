@@ -39,20 +39,20 @@ Part part_at_height(const Clearance::Shape& shape, double height, double reach) 
 }  // namespace
 
 Clearance::Clearance(const Domain& box, const std::vector<Shape>& shapes, std::size_t cells) {
-  begin(box, cells);
+  lay_cells(box, cells);
   std::vector<double> nearest(steps_.size(), HUGE_VAL);
-  for (const Shape& shape : shapes) see_shape(shape, nearest);
-  end(nearest);
+  for (const Shape& shape : shapes) enter_shape(shape, nearest);
+  store_bounds(nearest);
 }
 
 Clearance::Clearance(const Domain& box, const std::vector<Extent>& extents, std::size_t cells) {
-  begin(box, cells);
+  lay_cells(box, cells);
   std::vector<double> nearest(steps_.size(), HUGE_VAL);
-  for (const Extent& extent : extents) see_extent(extent, nearest);
-  end(nearest);
+  for (const Extent& extent : extents) enter_extent(extent, nearest);
+  store_bounds(nearest);
 }
 
-void Clearance::begin(const Domain& box, std::size_t cells) {
+void Clearance::lay_cells(const Domain& box, std::size_t cells) {
   const double most = static_cast<double>(cells);
   const double across = std::clamp(std::sqrt(most * (box.width / box.height)), 1.0, most);
   const auto axis = [](double length, bool periodic, double count) {
@@ -69,7 +69,7 @@ void Clearance::begin(const Domain& box, std::size_t cells) {
 
 // Row by row, so that a long segment costs the cells along it, not those of its rectangle. What reaches beyond a side
 // that is not periodic would be in no cell: its rectangle is.
-void Clearance::see_shape(const Shape& shape, std::vector<double>& nearest) const {
+void Clearance::enter_shape(const Shape& shape, std::vector<double>& nearest) const {
   const Vec2 to{shape.from.x + shape.along.x, shape.from.y + shape.along.y};
   const Extent extent{{std::min(shape.from.x, to.x) - shape.radius, std::min(shape.from.y, to.y) - shape.radius},
                       {std::max(shape.from.x, to.x) + shape.radius, std::max(shape.from.y, to.y) + shape.radius}};
@@ -77,7 +77,7 @@ void Clearance::see_shape(const Shape& shape, std::vector<double>& nearest) cons
     return !axis.periodic && (low < 0.0 || high > axis.length);
   };
   if (is_beyond(extent.low.x, extent.high.x, x_) || is_beyond(extent.low.y, extent.high.y, y_)) {
-    return see_extent(extent, nearest);
+    return enter_extent(extent, nearest);
   }
   const double reach = shape.radius + half_diagonal_ + cells_measured * cell_;
   const CellAxis::Span rows = y_.span(std::min(shape.from.y, to.y) - reach, std::max(shape.from.y, to.y) + reach);
@@ -87,7 +87,7 @@ void Clearance::see_shape(const Shape& shape, std::vector<double>& nearest) cons
     if (part.first > part.last) continue;
     const double one = shape.from.x + part.first * shape.along.x;
     const double other = shape.from.x + part.last * shape.along.x;
-    see(
+    enter(
         {{std::min(one, other) - reach, height}, {std::max(one, other) + reach, height}},
         [&](Vec2 middle) { return std::max(distance_from_segment(shape, middle) - shape.radius, 0.0); }, nearest);
   }
@@ -95,7 +95,7 @@ void Clearance::see_shape(const Shape& shape, std::vector<double>& nearest) cons
 
 // What is as long as a period is everywhere along it. Of what is beyond a side that is not periodic, the nearest place
 // in the box, which is no further from all the others.
-void Clearance::see_extent(Extent extent, std::vector<double>& nearest) const {
+void Clearance::enter_extent(Extent extent, std::vector<double>& nearest) const {
   const auto clip = [](double& low, double& high, const CellAxis& axis) {
     if (axis.periodic) {
       high = std::min(high, low + axis.length);
@@ -108,7 +108,7 @@ void Clearance::see_extent(Extent extent, std::vector<double>& nearest) const {
   clip(extent.low.y, extent.high.y, y_);
   const double reach = half_diagonal_ + cells_measured * cell_;
   const auto outside = [](double c, double low, double high) { return std::max({low - c, c - high, 0.0}); };
-  see(
+  enter(
       {{extent.low.x - reach, extent.low.y - reach}, {extent.high.x + reach, extent.high.y + reach}},
       [&](Vec2 middle) {
         const double x = outside(middle.x, extent.low.x, extent.high.x);
@@ -120,7 +120,7 @@ void Clearance::see_extent(Extent extent, std::vector<double>& nearest) const {
 
 // distance(middle): of what is in the extent from the middle of a cell, which may lie beyond periodic sides.
 template <class Distance>
-void Clearance::see(const Extent& extent, Distance&& distance, std::vector<double>& nearest) const {
+void Clearance::enter(const Extent& extent, Distance&& distance, std::vector<double>& nearest) const {
   const CellAxis::Span rows = y_.span(extent.low.y, extent.high.y);
   const CellAxis::Span columns = x_.span(extent.low.x, extent.high.x);
   for (std::int64_t row = rows.first; row <= rows.last; ++row) {
@@ -172,7 +172,7 @@ std::vector<std::uint8_t> Clearance::rings_around(const std::vector<double>& nea
 
 // The larger of two bounds: by the distance of the cell's middle, measured or more than what was measured, and by the
 // cells between it and those that something reaches into.
-void Clearance::end(const std::vector<double>& nearest) {
+void Clearance::store_bounds(const std::vector<double>& nearest) {
   const std::vector<std::uint8_t> rings = rings_around(nearest);
   for (std::size_t c = 0; c < steps_.size(); ++c) {
     const double measured = std::min(nearest[c] - half_diagonal_, cells_measured * cell_);

@@ -63,13 +63,13 @@ class Clearance {
   Cells cells() const;
 
  private:
-  void begin(const Domain& box, std::size_t cells);
-  void see_shape(const Shape& shape, std::vector<double>& nearest) const;
-  void see_extent(Extent extent, std::vector<double>& nearest) const;
+  void lay_cells(const Domain& box, std::size_t cells);
+  void enter_shape(const Shape& shape, std::vector<double>& nearest) const;
+  void enter_extent(Extent extent, std::vector<double>& nearest) const;
   template <class Distance>
-  void see(const Extent& extent, Distance&& distance, std::vector<double>& nearest) const;
+  void enter(const Extent& extent, Distance&& distance, std::vector<double>& nearest) const;
   std::vector<std::uint8_t> rings_around(const std::vector<double>& nearest) const;
-  void end(const std::vector<double>& nearest);
+  void store_bounds(const std::vector<double>& nearest);
 
   // That of a coordinate less than a period before the box, or within it, or beyond sides that are not periodic.
   static std::int64_t cell_of(double c, const CellAxis& axis) {

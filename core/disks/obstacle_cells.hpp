@@ -31,10 +31,10 @@ class ObstacleGrid {
   // The shorter side of a cell; length.
   double cell() const { return std::min(1.0 / x_.cells_per_length, 1.0 / y_.cells_per_length); }
 
-  // Calls see(k, shift) once for every obstacle k, and every image of it across periodic sides, that may reach into the
-  // rectangle; the image is displaced by shift. The rectangle may lie beyond periodic sides by a few periods.
-  template <class See>
-  void visit(Vec2 low, Vec2 high, See&& see) const {
+  // Calls found(k, shift) once for every obstacle k, and every image of it across periodic sides, that may reach into
+  // the rectangle; the image is displaced by shift. The rectangle may lie beyond periodic sides by a few periods.
+  template <class Found>
+  void visit(Vec2 low, Vec2 high, Found&& found) const {
     const CellAxis::Span rows = y_.span(low.y, high.y);
     const CellAxis::Span columns = x_.span(low.x, high.x);
     for (std::int64_t row = rows.first; row <= rows.last; ++row) {
@@ -51,7 +51,7 @@ class ObstacleGrid {
           // Of the cells that the image and the rectangle share, the first one only.
           if (column != std::max(columns.first, reach.columns.first + kx * x_.cells)) continue;
           if (row != std::max(rows.first, reach.rows.first + ky * y_.cells)) continue;
-          see(entry.obstacle, Vec2{static_cast<double>(kx) * x_.length, static_cast<double>(ky) * y_.length});
+          found(entry.obstacle, Vec2{static_cast<double>(kx) * x_.length, static_cast<double>(ky) * y_.length});
         }
       }
     }
@@ -101,11 +101,11 @@ class ObstacleCells {
 
   // As ObstacleGrid::visit. The image of one that moves is displaced by shift from where its motion has brought it,
   // periodic sides or not.
-  template <class See>
-  void visit(Vec2 low, Vec2 high, See&& see) const {
-    at_rest_.visit(low, high, see);
+  template <class Found>
+  void visit(Vec2 low, Vec2 high, Found&& found) const {
+    at_rest_.visit(low, high, found);
     if (!moving_.empty()) [[unlikely]]
-      swept_.visit(low, high, see);
+      swept_.visit(low, high, found);
   }
   // As in Clearance: no obstacle reaches into the rectangle.
   bool is_clear(Vec2 low, Vec2 high) const {

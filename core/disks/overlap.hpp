@@ -12,7 +12,7 @@ struct Overlap {
   DiskId id1 = 0, id2 = 0;  // id1 < id2; id2 may be a wall (contact_event.hpp)
 
   // Becomes the deeper of the two; of equal ones that of the smaller ids, so that their order does not matter.
-  void see(const Overlap& other) {
+  void raise_to(const Overlap& other) {
     const bool smaller = std::tie(other.id1, other.id2) < std::tie(id1, id2);
     if (other.size > size || (other.size == size && size > 0.0 && smaller)) *this = other;
   }

@@ -50,7 +50,7 @@ Overlap deepest_overlap(const Disks& d, const Domain& box, const BlockRunner& ru
     return (reach - std::sqrt(nearest_distance2({d.x[j] - d.x[i], d.y[j] - d.y[i]}, box))) / reach;
   };
   Overlap deepest;
-  for (const Overlap& found : deepest_of_touching_pairs(d, box, run, overlap)) deepest.see(found);
+  for (const Overlap& found : deepest_of_touching_pairs(d, box, run, overlap)) deepest.raise_to(found);
   return deepest;
 }
 

@@ -117,7 +117,7 @@ template <class RestitutionOf, class Rub>
     rub(r, change);
     if (begin_now) part_disks(r, shares(mass_p, mass_q), jump, p, q);
     outcome = {.virial = reduced_mass(mass_p, mass_q) * change, .happened = true, .lost_energy = e < 1.0};
-    see_shear(outcome, r, rows_to_nearest(q.y - p.y, box), mass_q * (q.vx - before), rough, box.shear);
+    record_shear(outcome, r, rows_to_nearest(q.y - p.y, box), mass_q * (q.vx - before), rough, box.shear);
   }
   outcome.shear_work += wrap_with_work(p, mass_p, box);
   outcome.shear_work += wrap_with_work(q, mass_q, box);
@@ -329,7 +329,7 @@ inline WallImpact bounce_off_obstacle(const ExactRules& rules, double s, const O
   }
   p.vx += wall.x;
   p.vy += wall.y;
-  see_push(impact, a.mass, wall, before, p.vx, p.vy);
+  record_push(impact, a.mass, wall, before, p.vx, p.vy);
   return impact;
 }
 

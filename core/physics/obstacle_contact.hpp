@@ -149,7 +149,7 @@ inline bool is_surely_beyond(const Obstacle& o, Vec2 apart, double r) {
 // Calls found(k, gap) if a disk of radius r at (x, y) overlaps or touches the image of obstacle k that is displaced by
 // `shift`, and this is the nearest one.
 template <class Found>
-void see_if_touched(const Domain& box, std::uint32_t k, Vec2 shift, double x, double y, double r, Found&& found) {
+void report_if_touched(const Domain& box, std::uint32_t k, Vec2 shift, double x, double y, double r, Found&& found) {
   const Obstacle& o = (*box.obstacles)[k];
   // This image alone, first: most are out of reach.
   if (!o.moves && is_surely_beyond(o, {(x - o.x) - shift.x, (y - o.y) - shift.y}, r)) return;
@@ -165,7 +165,7 @@ void see_if_touched(const Domain& box, std::uint32_t k, Vec2 shift, double x, do
 template <class Found>
 void for_each_obstacle_touched(const Domain& box, double x, double y, double r, Found&& found) {
   box.obstacles->visit({x - r, y - r}, {x + r, y + r},
-                       [&](std::uint32_t k, Vec2 shift) { see_if_touched(box, k, shift, x, y, r, found); });
+                       [&](std::uint32_t k, Vec2 shift) { report_if_touched(box, k, shift, x, y, r, found); });
 }
 
 // The same without sinks: what disks bounce off.

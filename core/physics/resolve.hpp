@@ -27,8 +27,8 @@ namespace carom {
 // of the image that collided. momentum: along x, what the second disk gained. The image has that much more energy than
 // the disk itself. The stress is momentum along x that goes along y; rough disks, whose impulse is not along the line
 // of centres, may hand on another amount along y over their distance along x, which does no work.
-inline void see_shear(PairImpact& impact, const Relative& r, int rows, double momentum, bool rough,
-                      const Shear& shear) {
+inline void record_shear(PairImpact& impact, const Relative& r, int rows, double momentum, bool rough,
+                         const Shear& shear) {
   impact.sheared = true;
   impact.shear_virial = rough ? r.dy * momentum : impact.virial * (r.dx * r.dy / r.distance2());
   if (rows != 0) impact.shear_work -= (rows > 0 ? shear.jump : -shear.jump) * momentum;
@@ -36,11 +36,11 @@ inline void see_shear(PairImpact& impact, const Relative& r, int rows, double mo
 
 // Disks i and j have just collided as r says; before: velocity along x of disk j until then.
 template <class View>
-void see_shear_of(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t j, const Relative& r,
-                  double before, PairImpact& impact) {
+void record_shear_of(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t j, const Relative& r,
+                     double before, PairImpact& impact) {
   if constexpr (View::is_sheared) {
-    see_shear(impact, r, rows_to_nearest(d.y[j] - d.y[i], rules.box), d.mass(j) * (d.vx[j] - before),
-              rules.surfaces != nullptr, rules.box.shear);
+    record_shear(impact, r, rows_to_nearest(d.y[j] - d.y[i], rules.box), d.mass(j) * (d.vx[j] - before),
+                 rules.surfaces != nullptr, rules.box.shear);
   }
 }
 
@@ -107,7 +107,7 @@ PairImpact resolve_pair(const View& d, const StepRules& rules, std::uint32_t i, 
     const double change = collide(r, share, e, d.vx[i], d.vy[i], d.vx[j], d.vy[j]);
     rub_pair(d, rules, i, j, r, share, change);
     impact = {.virial = reduced_mass(d.mass(i), d.mass(j)) * change, .happened = true, .inaccurate = !inside_step};
-    see_shear_of(d, rules, i, j, r, before, impact);
+    record_shear_of(d, rules, i, j, r, before, impact);
   }
   if (inside_step) {
     drift_one(d, i, ago, rules.gravity);
@@ -298,7 +298,7 @@ template <class View>
   }
   d.vx[i] += wall.x;
   d.vy[i] += wall.y;
-  see_push(impact, d.mass(i), wall, before, d.vx[i], d.vy[i]);
+  record_push(impact, d.mass(i), wall, before, d.vx[i], d.vy[i]);
   return impact;
 }
 

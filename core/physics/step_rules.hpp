@@ -57,7 +57,7 @@ inline bool has_happened(const Impact& impact) {
 }
 
 // What an inner wall that moves at `velocity` did to a disk whose velocity it changed from `before` to (vx, vy).
-inline void see_push(WallImpact& impact, double mass, Vec2 velocity, Vec2 before, double vx, double vy) {
+inline void record_push(WallImpact& impact, double mass, Vec2 velocity, Vec2 before, double vx, double vy) {
   impact.pushed = true;
   impact.momentum = {mass * (vx - before.x), mass * (vy - before.y)};
   impact.energy = impact.momentum.x * velocity.x + impact.momentum.y * velocity.y;

@@ -15,23 +15,24 @@ namespace carom {
 
 // A disk of radius r at (x, y): `deepest` becomes the deepest of itself and what that disk reaches beyond a wall side
 // or into an obstacle, over r. One that an inner sink is about to take may lie in an opening of a wall.
-inline void see_wall_overlap(double x, double y, double r, DiskId id, const Domain& box, Overlap& deepest) {
+inline void raise_to_wall_overlap(double x, double y, double r, DiskId id, const Domain& box, Overlap& deepest) {
   if (touches_inner_sink(box, x, y, r)) return;
   for (Side side : all_sides) {
     if (box.side(side) != SideKind::wall) continue;
     const double beyond = reach_beyond_wall(side, x, y, r, box);
-    if (beyond > 0.0) deepest.see({beyond / r, id, wall_partner(side)});
+    if (beyond > 0.0) deepest.raise_to({beyond / r, id, wall_partner(side)});
   }
   if (box.obstacles == nullptr || box.obstacles->clearance({x, y}) >= r) return;
   for_each_solid_touched(box, x, y, r, [&](std::uint32_t k, const ObstacleGap& gap) {
-    if (gap.beyond > 0.0) deepest.see({gap.beyond / r, id, obstacle_partner(k)});
+    if (gap.beyond > 0.0) deepest.raise_to({gap.beyond / r, id, obstacle_partner(k)});
   });
 }
 
 // The deepest of disks [begin, end); size 0 where none reaches beyond.
 inline Overlap deepest_wall_overlap(const Disks& d, const Domain& box, std::size_t begin, std::size_t end) {
   Overlap deepest;
-  for (std::size_t i = begin; i < end; ++i) see_wall_overlap(d.x[i], d.y[i], d.radius_of(i), d.id[i], box, deepest);
+  for (std::size_t i = begin; i < end; ++i)
+    raise_to_wall_overlap(d.x[i], d.y[i], d.radius_of(i), d.id[i], box, deepest);
   return deepest;
 }
 

@@ -29,30 +29,30 @@ class Neighbourhood {
     }
   }
 
-  // Calls see(j) for every disk j other than i in the cells around i's home.
-  template <class See>
-  void visit(std::uint32_t i, See&& see) const {
+  // Calls found(j) for every disk j other than i in the cells around i's home.
+  template <class Found>
+  void visit(std::uint32_t i, Found&& found) const {
     for (const std::size_t row : CellNeighbours(home_[i].row, rows_, box_.periodic_y())) {
       // Across the bottom or the top of a sheared box disks of any column may be near.
       const bool across = rows_ <= 3 || (row != home_[i].row && row + 1 != home_[i].row && row != home_[i].row + 1);
       if (across && box_.shear.acts()) {
-        visit_row(row, i, see);
+        visit_row(row, i, found);
         continue;
       }
       for (const std::size_t column : CellNeighbours(home_[i].column, columns_, box_.periodic_x())) {
         for (const std::uint32_t j : cells_[row * columns_ + column]) {
-          if (j != i) see(j);
+          if (j != i) found(j);
         }
       }
     }
   }
 
  private:
-  template <class See>
-  void visit_row(std::size_t row, std::uint32_t i, See& see) const {
+  template <class Found>
+  void visit_row(std::size_t row, std::uint32_t i, Found& found) const {
     for (std::size_t column = 0; column < columns_; ++column) {
       for (const std::uint32_t j : cells_[row * columns_ + column]) {
-        if (j != i) see(j);
+        if (j != i) found(j);
       }
     }
   }

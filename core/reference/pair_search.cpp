@@ -171,7 +171,7 @@ std::vector<Overlap> deepest_of_touching_pairs(const Disks& d, const Domain& box
     deepest.resize(first + grid.rows);
     run(grid.rows, [&](std::size_t row) {
       const auto see = [&](std::uint32_t i, std::uint32_t j) {
-        deepest[first + row].see({overlap(i, j), d.id[i], d.id[j]});
+        deepest[first + row].raise_to({overlap(i, j), d.id[i], d.id[j]});
       };
       for_pairs_of_row(grid, row, d, box, see);
       for (auto smaller = own + 1; smaller != classes.end(); ++smaller) {

@@ -58,7 +58,7 @@ Count ReferenceEngine::parts(double dt) {
   const double smallest = smallest_radius(state_.disks);
   const double fall = smallest > 0.0 ? common_travel(scene_, dt, smallest) : 0.0;
   const Count parts = parts_of_step(travel2, fall, dt);
-  if (parts > 1) validity_.see_split(state_, dt, parts);
+  if (parts > 1) validity_.note_split(state_, dt, parts);
   return parts;
 }
 

@@ -145,7 +145,7 @@ class ReferenceExact final : public Engine {
     finish_window(state_, state_.disks.size(), plan, result.tally, scale_);
     Overlap wall;
     if (walls_are_watched(scene_)) wall = deepest_wall_overlap(d, box_at(scene_.box, state_.time), 0, d.size());
-    validity_.see_step(scene_, {.wall = wall, .inaccurate = result.tally.all_inaccurate()}, state_);
+    validity_.note_step(scene_, {.wall = wall, .inaccurate = result.tally.all_inaccurate()}, state_);
     check_pace(scene_, state_, plan, result.tally);
   }
 

@@ -26,7 +26,7 @@ class RollbackPhases : public ReferenceEngine {
     events_ = contacts_after_drift(state_.disks, rules);
     std::erase_if(events_, [&](const ContactEvent& e) {
       const bool met = is_met(state_.disks, rules, e);
-      see_overlaps(state_.disks, rules, e, met, figures);
+      note_overlaps(state_.disks, rules, e, met, figures);
       return !met;
     });
     std::sort(events_.begin(), events_.end(), event_order);

@@ -152,7 +152,7 @@ StepFigures resolve_serially(State& state, const StepRules& rules, std::vector<C
     const std::vector<std::uint32_t> contacts = contacts_per_disk(state.disks.size(), events);
     for (const ContactEvent& e : events) {
       const bool bore = load_of(state.loads, e) > 0.0 && is_crowded(contacts, e);  // seen at the end of that step
-      if (rules.round == 0 && !is_wall(e.id2) && !bore) see_overlap_before(d, rules, e.i1, e.i2, figures);
+      if (rules.round == 0 && !is_wall(e.id2) && !bore) note_overlap_before(d, rules, e.i1, e.i2, figures);
     }
     ImpactTally tally;
     resolve_impacts(d, state, rules, events, contacts, log, tally);
@@ -162,9 +162,9 @@ StepFigures resolve_serially(State& state, const StepRules& rules, std::vector<C
     figures.inaccurate = tally.inaccurate;
     figures.inaccurate_at_walls = tally.inaccurate_at_walls;
     push_all(d, state, rules, events, contacts);
-    for (const ContactEvent& e : events) see_overlap_left(d, rules.box, e, figures);
+    for (const ContactEvent& e : events) note_overlap_left(d, rules.box, e, figures);
     for (std::uint32_t i = 0; i < contacts.size(); ++i) {
-      if (contacts[i] > 0) see_wall_overlap(d, rules.box, i, figures);
+      if (contacts[i] > 0) raise_to_wall_overlap(d, rules.box, i, figures);
     }
   });
   return figures;

@@ -19,13 +19,13 @@ namespace carom {
 
 // How deep a disk lies in walls at the end of the step. Only disks in contact can: to be asked once for each of them.
 template <class View>
-void see_wall_overlap(const View& d, const Domain& box, std::uint32_t i, StepFigures& figures) {
-  see_wall_overlap(d.x[i], d.y[i], d.radius(i), d.id[i], box, figures.wall);
+void raise_to_wall_overlap(const View& d, const Domain& box, std::uint32_t i, StepFigures& figures) {
+  raise_to_wall_overlap(d.x[i], d.y[i], d.radius(i), d.id[i], box, figures.wall);
 }
 
 // How deep the two disks of a contact lie in one another at the end of the step; a wall's contact has none to see.
 template <class View>
-void see_overlap_left(const View& d, const Domain& box, const ContactEvent& e, StepFigures& figures) {
+void note_overlap_left(const View& d, const Domain& box, const ContactEvent& e, StepFigures& figures) {
   if (is_wall(e.id2)) return;
   const double contact_distance = d.radius(e.i1) + d.radius(e.i2);
   const double distance2 = distance2_of(d, e.i1, e.i2, box);
@@ -33,7 +33,7 @@ void see_overlap_left(const View& d, const Domain& box, const ContactEvent& e, S
   constexpr double deep = 0.5, above_rounding = 1.0 + 1e-14;
   const double seen = figures.left.size < deep ? contact_distance * (1.0 - figures.left.size) : contact_distance;
   if (distance2 >= contact_distance * contact_distance || distance2 > seen * seen * above_rounding) return;
-  figures.left.see({(contact_distance - std::sqrt(distance2)) / contact_distance, e.id1, e.id2});
+  figures.left.raise_to({(contact_distance - std::sqrt(distance2)) / contact_distance, e.id1, e.id2});
 }
 
 // How many contacts each disk has, by storage index. Two or more, and it is crowded, as its contacts are.

@@ -12,14 +12,15 @@ namespace carom {
 // How deep two disks overlapped when the step began: impacts of the step before may have brought them together that
 // were in no contact then. To be asked before anything is resolved, while the disks are on the paths of their drift.
 template <class View>
-void see_overlap_before(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t j, StepFigures& figures) {
+void note_overlap_before(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t j,
+                         StepFigures& figures) {
   const Relative r = relative(d, i, j, rules.box);
   const double dx = r.dx - r.dvx * rules.dt;
   const double dy = r.dy - r.dvy * rules.dt;
   const double contact_distance = d.radius(i) + d.radius(j);
   const double distance2 = dx * dx + dy * dy;
   if (distance2 < contact_distance * contact_distance) {
-    figures.before.see({(contact_distance - std::sqrt(distance2)) / contact_distance, d.id[i], d.id[j]});
+    figures.before.raise_to({(contact_distance - std::sqrt(distance2)) / contact_distance, d.id[i], d.id[j]});
   }
 }
 

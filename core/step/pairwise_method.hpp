@@ -47,7 +47,7 @@ class PairwiseMethod final : public Phases {
     state_.step_begun = false;
     count_step(state_.counters, disks, all_disks(), dt);
     state_.time = clock_.end(k);
-    validity_.see_step(scene_, figures, state_);
+    validity_.note_step(scene_, figures, state_);
     check_crushed(scene_, state_);
   }
 

@@ -17,13 +17,13 @@ bool is_met(Disks& disks, const StepRules& rules, const ContactEvent& e) {
   return with_view(disks, rules, [&](const auto& d) { return relative(d, e.i1, e.i2, rules.box).approach() < 0.0; });
 }
 
-void see_overlaps(Disks& disks, const StepRules& rules, const ContactEvent& e, bool met, StepFigures& figures) {
+void note_overlaps(Disks& disks, const StepRules& rules, const ContactEvent& e, bool met, StepFigures& figures) {
   if (is_wall(e.id2)) return;
   with_view(disks, rules, [&](const auto& d) {
-    if (met) return see_overlap_before(d, rules, e.i1, e.i2, figures);
+    if (met) return note_overlap_before(d, rules, e.i1, e.i2, figures);
     const double contact_distance = d.radius(e.i1) + d.radius(e.i2);
     const double distance = std::sqrt(distance2_of(d, e.i1, e.i2, rules.box));
-    figures.left.see({(contact_distance - distance) / contact_distance, e.id1, e.id2});
+    figures.left.raise_to({(contact_distance - distance) / contact_distance, e.id1, e.id2});
   });
 }
 

@@ -24,7 +24,7 @@ bool is_met(Disks& disks, const StepRules& rules, const ContactEvent& event);
 // The overlaps that a contact of the frame shows, while all disks are where they drifted to: of a pair that is met,
 // what it had when the frame began, as a wall may have sent one disk into the other (F11); of any other pair that of
 // now, which nothing in the frame will see to. None of a wall.
-void see_overlaps(Disks& disks, const StepRules& rules, const ContactEvent& event, bool met, StepFigures& figures);
+void note_overlaps(Disks& disks, const StepRules& rules, const ContactEvent& event, bool met, StepFigures& figures);
 
 // A pair found bounces by (23) where it is now, if it still approaches: with the velocities of the moment, not copies
 // (F3). A pair that has not yet touched bounces at a distance: F2, kept.
@@ -38,7 +38,7 @@ PairImpact bounce_pair(const View& d, const StepRules& rules, std::uint32_t i, s
   const double change = collide(r, share, e, d.vx[i], d.vy[i], d.vx[j], d.vy[j]);
   PairImpact impact{.virial = reduced_mass(d.mass(i), d.mass(j)) * change, .happened = true};
   rub_pair(d, rules, i, j, r, share, change);
-  see_shear_of(d, rules, i, j, r, before, impact);
+  record_shear_of(d, rules, i, j, r, before, impact);
   return impact;
 }
 
@@ -51,10 +51,10 @@ void bounce_all(Disks& disks, const StepRules& rules, const std::vector<ContactE
                 CollisionLog* log = nullptr);
 
 // One disk and the walls and obstacles it reaches beyond: back to its contact, bounce, forward; what remains is pushed
-// inside (F11). An obstacle may hold a disk in another, or in a side: `seen` is told. No walls where an inner sink
+// inside (F11). An obstacle may hold a disk in another, or in a side: it raises `deepest`. No walls where an inner sink
 // is an opening, as in for_each_wall_contact.
 template <class View>
-void meet_walls(const View& d, const StepRules& rules, std::uint32_t i, ImpactTally& tally, Overlap& seen) {
+void meet_walls(const View& d, const StepRules& rules, std::uint32_t i, ImpactTally& tally, Overlap& deepest) {
   const double open = depth_of_opening(d, rules.box, i);
   for (Side side : all_sides) {
     if (rules.box.side(side) != SideKind::wall) continue;
@@ -71,7 +71,7 @@ void meet_walls(const View& d, const StepRules& rules, std::uint32_t i, ImpactTa
     tally.add_wall(obstacle_partner(k), resolve_obstacle(d, rules, i, k));
     push_from_obstacle(d, rules.box, i, (*rules.box.obstacles)[k], 0.0);
   });
-  if (touched) see_wall_overlap(d.x[i], d.y[i], d.radius(i), d.id[i], rules.box, seen);
+  if (touched) raise_to_wall_overlap(d.x[i], d.y[i], d.radius(i), d.id[i], rules.box, deepest);
 }
 
 // Where the frame that starts at state.time must end: at t_end, or at the next draw of Brownian displacements.

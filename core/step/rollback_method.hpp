@@ -43,7 +43,7 @@ class RollbackMethod final : public Phases {
     if (scene_.box.inner_walls_move) scene_.box.clock = {state_.time, state_.time};
     remove_at_sinks();
     count_step(state_.counters, disks, all_disks(), state_.time - begin);
-    validity_.see_step(scene_, figures, state_);
+    validity_.note_step(scene_, figures, state_);
     check_crushed(scene_, state_);
     check_stall(state_, scene_);
   }

@@ -85,29 +85,29 @@ double shortest_period(const Scene& scene) {
 
 }  // namespace
 
-void Validity::see_split(State& state, double dt, Count parts) {
+void Validity::note_split(State& state, double dt, Count parts) {
   ValidityCounts& seen = state.validity;
   if (static_cast<double>(parts) > seen.parts.figure) seen.parts = {static_cast<double>(parts), state.time};
   if (std::exchange(seen.split_told, true)) return;
   warnings_.push_back(split_text(state.time, dt, parts));
 }
 
-void Validity::see_step(const Scene& scene, const StepFigures& figures, State& state) {
+void Validity::note_step(const Scene& scene, const StepFigures& figures, State& state) {
   const bool rollback = scene.run.method == Method::rollback;
-  see_overlap(scene, figures, state);
+  note_overlap(scene, figures, state);
   // Supports keep a little overlap, so that a pile's impacts are often late without harm: its overlaps tell.
   const bool pile = scene.run.method == Method::pairwise && settles(scene);
-  if (figures.inaccurate > 0 && !pile) see_inaccurate(scene, figures.inaccurate, state);
-  if (figures.inaccurate_at_walls > 0 && !pile) see_late_at_walls(scene, figures.inaccurate_at_walls, state);
-  if (rollback) see_advance(scene, state);
+  if (figures.inaccurate > 0 && !pile) note_inaccurate(scene, figures.inaccurate, state);
+  if (figures.inaccurate_at_walls > 0 && !pile) note_late_at_walls(scene, figures.inaccurate_at_walls, state);
+  if (rollback) note_advance(scene, state);
   const Overlap& deepest = figures.wall.size > figures.left.size ? figures.wall : figures.left;
   if (scene.box.has_moving_wall() && deepest.size > crushed_overlap) state.validity.crushed = {deepest, state.time};
 }
 
-void Validity::see_overlap(const Scene& scene, const StepFigures& figures, State& state) {
+void Validity::note_overlap(const Scene& scene, const StepFigures& figures, State& state) {
   ValidityCounts& seen = state.validity;
   Overlap deepest = figures.left;
-  deepest.see(figures.before);
+  deepest.raise_to(figures.before);
   if (deepest.size > seen.disks.overlap.size) seen.disks = {deepest, state.time};
   if (figures.wall.size > seen.wall.overlap.size) seen.wall = {figures.wall, state.time};
   if (scene.run.method == Method::exact) {
@@ -121,21 +121,21 @@ void Validity::see_overlap(const Scene& scene, const StepFigures& figures, State
   warnings_.push_back(overlap_text(scene, state, {deepest, state.time}, {figures.wall, state.time}));
 }
 
-void Validity::see_inaccurate(const Scene& scene, Count count, State& state) {
+void Validity::note_inaccurate(const Scene& scene, Count count, State& state) {
   const Count inaccurate = state.validity.inaccurate += count;
   if (!are_many(inaccurate, collisions_watched(scene, state), largest_inaccurate_share)) return;
   if (std::exchange(state.validity.inaccurate_told, true)) return;
   warnings_.push_back(inaccurate_text(scene, state));
 }
 
-void Validity::see_late_at_walls(const Scene& scene, Count count, State& state) {
+void Validity::note_late_at_walls(const Scene& scene, Count count, State& state) {
   const Count late = state.validity.inaccurate_at_walls += count;
   if (!are_many(late, state.counters.wall_collisions, largest_late_share_at_walls)) return;
   if (std::exchange(state.validity.late_at_walls_told, true)) return;
   warnings_.push_back(late_at_walls_text(scene, state));
 }
 
-void Validity::see_advance(const Scene& scene, State& state) {
+void Validity::note_advance(const Scene& scene, State& state) {
   ValidityCounts& seen = state.validity;
   if (++seen.frames < frames_watched) return;
   const double advance = (state.time - seen.since) / (static_cast<double>(seen.frames) * scene.run.dt);
@@ -155,14 +155,14 @@ std::vector<std::string> Validity::take_warnings() {
   return std::exchange(warnings_, {});
 }
 
-std::vector<std::string> validity_so_far(const Scene& scene, const State& state) {
-  std::vector<std::string> warnings = worst_moments(scene, state);
+std::vector<std::string> validity_warnings_so_far(const Scene& scene, const State& state) {
+  std::vector<std::string> warnings = worst_moment_warnings(scene, state);
   if (state.validity.inaccurate_told) warnings.push_back(inaccurate_text(scene, state));
   if (state.validity.late_at_walls_told) warnings.push_back(late_at_walls_text(scene, state));
   return warnings;
 }
 
-std::vector<std::string> worst_moments(const Scene& scene, const State& state) {
+std::vector<std::string> worst_moment_warnings(const Scene& scene, const State& state) {
   const ValidityCounts& seen = state.validity;
   std::vector<std::string> warnings;
   if (seen.split_told) {
@@ -189,7 +189,7 @@ void check_crushed(const Scene& scene, const State& state) {
       time, scene.run.dt, deepest.id1, 100.0 * deepest.size, into, moving_walls_text(scene.box, time)));
 }
 
-std::vector<std::string> validity_of(const Scene& scene, double smallest_radius, double fastest) {
+std::vector<std::string> validity_warnings_at_start(const Scene& scene, double smallest_radius, double fastest) {
   std::vector<std::string> warnings;
   const double period = shortest_period(scene);
   if (scene.run.method != Method::exact && scene.run.dt > largest_share_of_period * period) {

@@ -55,9 +55,9 @@ struct StepFigures {
   Count inaccurate_at_walls = 0;  // time stepping: bounces off walls and obstacles that are met late
 
   void add(const StepFigures& other) {
-    left.see(other.left);
-    before.see(other.before);
-    wall.see(other.wall);
+    left.raise_to(other.left);
+    before.raise_to(other.before);
+    wall.raise_to(other.wall);
     inaccurate += other.inaccurate;
     inaccurate_at_walls += other.inaccurate_at_walls;
   }
@@ -66,7 +66,7 @@ struct StepFigures {
   void go_on(const StepFigures& later) {
     left = later.left;
     wall = later.wall;
-    before.see(later.before);
+    before.raise_to(later.before);
     inaccurate += later.inaccurate;
     inaccurate_at_walls += later.inaccurate_at_walls;
   }
@@ -75,33 +75,33 @@ struct StepFigures {
 class Validity {
  public:
   // The step that starts in this state is longer than the safe one. Of state, only state.validity changes.
-  void see_split(State& state, double dt, Count parts);
+  void note_split(State& state, double dt, Count parts);
 
   // A step, frame or window has ended in this state. Of it, only state.validity changes.
-  void see_step(const Scene& scene, const StepFigures& figures, State& state);
+  void note_step(const Scene& scene, const StepFigures& figures, State& state);
 
   // Those since the last call, one of each kind in a run: with what was seen first. What was counted, and that it was
   // told, is in the state: a checkpoint keeps both.
   std::vector<std::string> take_warnings();
 
  private:
-  void see_overlap(const Scene& scene, const StepFigures& figures, State& state);
-  void see_inaccurate(const Scene& scene, Count count, State& state);
-  void see_late_at_walls(const Scene& scene, Count count, State& state);
-  void see_advance(const Scene& scene, State& state);
+  void note_overlap(const Scene& scene, const StepFigures& figures, State& state);
+  void note_inaccurate(const Scene& scene, Count count, State& state);
+  void note_late_at_walls(const Scene& scene, Count count, State& state);
+  void note_advance(const Scene& scene, State& state);
 
   std::vector<std::string> warnings_;
 };
 
 // The same warnings for a run that has come to this state, in order of kind: with the worst that was seen.
-std::vector<std::string> validity_so_far(const Scene& scene, const State& state);
+std::vector<std::string> validity_warnings_so_far(const Scene& scene, const State& state);
 
 // Is an exact method to look at walls at every window's end? Where paths are curved, walls move or anything stands in
 // the box; along straight lines to the sides alone, rounding is all that can be seen.
 bool walls_are_watched(const Scene& scene);
 
 // Those of them that tell of one moment, the worst; not of a share that goes on with every step.
-std::vector<std::string> worst_moments(const Scene& scene, const State& state);
+std::vector<std::string> worst_moment_warnings(const Scene& scene, const State& state);
 
 // Throws PhysicsError where a wall that moves has pressed disks into each other by more than crushed_overlap, or into
 // itself: it goes on, and they cannot. Asked before and after a step, so that a state that was left so stays refused,
@@ -112,7 +112,7 @@ void check_crushed(const Scene& scene, const State& state);
 // What can be said before the first step: places too coarse for the radii or for the way of a step, Brownian intervals
 // too long. One line each. smallest_radius, fastest (speed): of the disks at the start, 0 if there are none or none
 // moves.
-std::vector<std::string> validity_of(const Scene& scene, double smallest_radius, double fastest = 0.0);
+std::vector<std::string> validity_warnings_at_start(const Scene& scene, double smallest_radius, double fastest = 0.0);
 
 // What a run at its end has to say of disks that still wait for room: a line for each source whose share of them is
 // above most_waiting, or that never gave one. when: how the line begins, before the time.

@@ -122,7 +122,7 @@ void EventPredictor::see_obstacles(std::uint32_t i, double end, NextEvent& best)
   };
   const auto near_start = [&](std::uint32_t k, Vec2 shift) {
     const auto see = [&](const Domain& now) {
-      see_if_touched(now, k, shift, path.x, path.y, own.radius + close, see_slow);
+      report_if_touched(now, k, shift, path.x, path.y, own.radius + close, see_slow);
     };
     if (lasting) return;
     if (box.inner_walls_move) return see(box_at(box, box.clock.to + path.start));

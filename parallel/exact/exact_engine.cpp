@@ -331,7 +331,7 @@ void ParallelExact::finish(const WindowPlan& plan) {
   finish_window(state_, state_.disks.size(), plan, tally);
   Overlap wall;
   if (walls_are_watched(scene_)) wall = deepest_wall_overlap(state_.disks, box_at(scene_.box, state_.time), executor_);
-  validity_.see_step(scene_, {.wall = wall, .inaccurate = tally.all_inaccurate()}, state_);
+  validity_.note_step(scene_, {.wall = wall, .inaccurate = tally.all_inaccurate()}, state_);
   check_pace(scene_, state_, plan, tally);
 }
 

@@ -29,7 +29,7 @@ Overlap deepest_wall_overlap(const Disks& d, const Domain& box, const Executor& 
   executor.for_ranges(d.size(), pass_disks, [&](std::size_t b, std::size_t begin, std::size_t end) {
     deepest[b] = deepest_wall_overlap(d, box, begin, end);
   });
-  for (std::size_t b = 1; b < deepest.size(); ++b) deepest[0].see(deepest[b]);
+  for (std::size_t b = 1; b < deepest.size(); ++b) deepest[0].raise_to(deepest[b]);
   return deepest[0];
 }
 

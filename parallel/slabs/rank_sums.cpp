@@ -79,9 +79,9 @@ void join_over_ranks(Ranks& ranks, StepFigures& figures) {
   put(here, FiguresOverlaps{figures.left, figures.before, figures.wall});
   for (const Bytes& there : ranks.gather(here)) {
     const auto seen = MessageReader(there).get<FiguresOverlaps>();
-    figures.left.see(seen.left);
-    figures.before.see(seen.before);
-    figures.wall.see(seen.wall);
+    figures.left.raise_to(seen.left);
+    figures.before.raise_to(seen.before);
+    figures.wall.raise_to(seen.wall);
   }
 }
 

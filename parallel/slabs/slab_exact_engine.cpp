@@ -212,7 +212,7 @@ void SlabExact::finish(const WindowPlan& plan) {
     figures.wall = deepest_wall_overlap(state_.disks, box_at(scene_.box, state_.time), executor_);
     join_over_ranks(ranks_, figures);
   }
-  validity_.see_step(scene_, figures, state_);
+  validity_.note_step(scene_, figures, state_);
   check_pace(scene_, state_, plan, tally);
 }
 

@@ -134,7 +134,7 @@ Count SlabStepping::parts(double dt) {
   double travel2 = with_view(state_.disks, [&](const auto& d) { return largest_travel2(d, 0, state_.disks.size()); });
   ranks_.maximum({&travel2, 1});
   const Count parts = parts_of_step(travel2, common_travel(scene_, dt, smallest_radius_), dt);
-  if (parts > 1) validity_.see_split(state_, dt, parts);
+  if (parts > 1) validity_.note_split(state_, dt, parts);
   return parts;
 }
 
@@ -278,7 +278,7 @@ double SlabStepping::resolve_alone_at_border(const StepRules& rules, ImpactTally
       const PairImpact impact = resolve_pair(d, rules, e.i1, e.i2);
       if (!ghosts_.is_ghost(e.i1)) tally.add_pair(impact);
       push_pair(d, rules.box, e.i1, e.i2, 0.0);
-      see_overlap_left(d, rules.box, e, lists_.figures);
+      note_overlap_left(d, rules.box, e, lists_.figures);
       for (const std::uint32_t i : {e.i1, e.i2}) {
         speed2 = std::max(speed2, finish_disk(d, rules.box, walls, i, lists_.figures));
         lists_.contacts[i] = 0;

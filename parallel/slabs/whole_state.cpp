@@ -47,11 +47,11 @@ Overlap overlap_over_ranks(Ranks& ranks, const Domain& box, const Disks& own, co
   Overlap deepest = deepest_overlap(own, box);
   if (ranks.count() > 1) {
     const Slab slab = slab_of(cut, box, ranks.rank());
-    deepest.see(deepest_overlap(disks_at_borders(ranks, slab, box, own), box));
+    deepest.raise_to(deepest_overlap(disks_at_borders(ranks, slab, box, own), box));
   }
   Bytes here;
   put(here, deepest);
-  for (const Bytes& there : ranks.gather(here)) deepest.see(MessageReader(there).get<Overlap>());
+  for (const Bytes& there : ranks.gather(here)) deepest.raise_to(MessageReader(there).get<Overlap>());
   return deepest;
 }
 
@@ -60,14 +60,14 @@ DeepestOverlaps overlaps_over_ranks(Ranks& ranks, const Scene& scene, const Stat
   if (ranks.count() > 1) {
     const Domain box = box_at(scene.box, part.time);
     const Slab slab = slab_of(cut, box, ranks.rank());
-    deepest.disks.see(deepest_overlap(disks_at_borders(ranks, slab, box, part.disks), box));
+    deepest.disks.raise_to(deepest_overlap(disks_at_borders(ranks, slab, box, part.disks), box));
   }
   Bytes here;
   put(here, deepest);
   for (const Bytes& there : ranks.gather(here)) {
     const auto seen = MessageReader(there).get<DeepestOverlaps>();
-    deepest.disks.see(seen.disks);
-    deepest.wall.see(seen.wall);
+    deepest.disks.raise_to(seen.disks);
+    deepest.wall.raise_to(seen.wall);
   }
   return deepest;
 }

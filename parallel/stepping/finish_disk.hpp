@@ -13,8 +13,9 @@ namespace carom {
 
 // Not inlined: few disks reach beyond a wall, and the loop over all contacts keeps its registers.
 template <class View>
-[[gnu::noinline]] void see_wall_overlap_apart(const View& d, const Domain& box, std::uint32_t i, StepFigures& seen) {
-  see_wall_overlap(d, box, i, seen);
+[[gnu::noinline]] void raise_to_wall_overlap_apart(const View& d, const Domain& box, std::uint32_t i,
+                                                   StepFigures& seen) {
+  raise_to_wall_overlap(d, box, i, seen);
 }
 
 // Columns: Disks, or a view of them.
@@ -35,7 +36,7 @@ double wrap_moved(Columns& d, const Domain& box, std::size_t i) {
 // back into it (move_sheared).
 template <class View>
 double finish_disk(const View& d, const Domain& box, const WallReach& walls, std::uint32_t i, StepFigures& seen) {
-  if (walls.touches(d.x[i], d.y[i], d.radius(i))) see_wall_overlap_apart(d, box, i, seen);
+  if (walls.touches(d.x[i], d.y[i], d.radius(i))) raise_to_wall_overlap_apart(d, box, i, seen);
   if constexpr (View::is_sheared) {
     return speed2_of(d, i);
   } else {

@@ -82,14 +82,14 @@ template <class View>
       prefetch_disk(d, pairs[k + ahead].i1);
       prefetch_disk(d, pairs[k + ahead].i2);
     }
-    see_overlap_before(d, rules, i, j, seen);
+    note_overlap_before(d, rules, i, j, seen);
     if (lists.contacts[i] != 1 || lists.contacts[j] != 1) {
       lists.crowded_blocks[b].push_back(pair_event(d, rules, i, j));
       continue;
     }
     lists.tallies[b].template add_pair<View::is_sheared>(resolve_pair(d, rules, i, j));
     push_pair(d, rules.box, i, j, 0.0);
-    see_overlap_left(d, rules.box, {0.0, d.id[i], d.id[j], i, j}, seen);
+    note_overlap_left(d, rules.box, {0.0, d.id[i], d.id[j], i, j}, seen);
     const double v2 = std::max(finish_disk(d, rules.box, walls, i, seen), finish_disk(d, rules.box, walls, j, seen));
     lists.largest[b] = std::max(lists.largest[b], v2);
     lists.contacts[i] = lists.contacts[j] = 0;

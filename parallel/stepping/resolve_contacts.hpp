@@ -120,8 +120,8 @@ bool any_marked(const ContactLists& lists);
 
 // The deepest overlap left to the contacts event(0) to event(n - 1) goes to lists.figures.
 template <class View, class Event>
-void see_overlaps_left(const View& d, const Domain& box, std::size_t n, const Executor& executor, ContactLists& lists,
-                       Event&& event);
+void note_overlaps_left(const View& d, const Domain& box, std::size_t n, const Executor& executor, ContactLists& lists,
+                        Event&& event);
 
 // What the blocks have seen goes to lists.figures.
 void add_seen(ContactLists& lists);
@@ -130,11 +130,11 @@ void add_seen(ContactLists& lists);
 inline constexpr std::size_t contact_block = 1024;
 
 template <class View, class Event>
-void see_overlaps_left(const View& d, const Domain& box, std::size_t n, const Executor& executor, ContactLists& lists,
-                       Event&& event) {
+void note_overlaps_left(const View& d, const Domain& box, std::size_t n, const Executor& executor, ContactLists& lists,
+                        Event&& event) {
   assign_amply(lists.seen, executor.blocks(n, contact_block), {});
   executor.for_ranges(n, contact_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) see_overlap_left(d, box, event(k), lists.seen[b]);
+    for (std::size_t k = begin; k < end; ++k) note_overlap_left(d, box, event(k), lists.seen[b]);
   });
   add_seen(lists);
 }

@@ -48,8 +48,8 @@ void resolve_crowded(const View& d, const StepRules& rules, const Disks& disks, 
     });
     if (!others.any(any_marked(lists))) break;
   }
-  see_overlaps_left(d, rules.box, lists.crowded.size(), executor, lists,
-                    [&](std::size_t k) { return lists.crowded[k]; });
+  note_overlaps_left(d, rules.box, lists.crowded.size(), executor, lists,
+                     [&](std::size_t k) { return lists.crowded[k]; });
 }
 
 }  // namespace carom

@@ -35,7 +35,7 @@ class RollbackPhases : public TimeStepping {
     gather(rules);
     keep_events(lists_, executor_, [&](const ContactEvent& e) {
       const bool met = is_met(state_.disks, rules, e);
-      see_overlaps(state_.disks, rules, e, met, figures);
+      note_overlaps(state_.disks, rules, e, met, figures);
       return met;
     });
     return lists_.events;
@@ -71,7 +71,7 @@ class RollbackPhases : public TimeStepping {
       });
     });
     for (const ImpactTally& t : lists_.tallies) tally.add(t);
-    for (const Overlap& deepest : deepest_) figures.wall.see(deepest);
+    for (const Overlap& deepest : deepest_) figures.wall.raise_to(deepest);
     // A ceiling sends a disk down faster than it came, a rough wall one that spins, and a hot side, or one that moves,
     // may send any.
     const bool rough = rules.surfaces != nullptr;

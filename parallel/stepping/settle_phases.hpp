@@ -52,7 +52,7 @@ bool look_up_loads(const View& d, const State& state, const StepRules& rules, co
       lists.settle.borne[k] = force;
       const bool crowded = is_crowded(lists, p);
       if (force > 0.0 && crowded) continue;
-      if (rules.round == 0 && !is_wall(p.id2())) see_overlap_before(d, rules, p.i1, p.i2, lists.seen[b]);
+      if (rules.round == 0 && !is_wall(p.id2())) note_overlap_before(d, rules, p.i1, p.i2, lists.seen[b]);
       lists.crowded_blocks[b].push_back(timed_event(d, rules, p));
       if (!is_support(d, rules, p.event(), force > 0.0, crowded)) lists.largest[b] = 1.0;
     }
@@ -106,8 +106,8 @@ void push_contacts(const View& d, Disks& disks, const StepRules& rules, const Ex
     if (!others.any(any_marked(lists))) break;
   }
   others.refresh(Places{disks});
-  see_overlaps_left(d, rules.box, settle.placed.size(), executor, lists,
-                    [&](std::size_t k) { return settle.placed[k].event(); });
+  note_overlaps_left(d, rules.box, settle.placed.size(), executor, lists,
+                     [&](std::size_t k) { return settle.placed[k].event(); });
 }
 
 // Finishes the disks that had contacts, clears their counts, and returns the largest squared speed among them.

@@ -128,7 +128,7 @@ Count TimeStepping::parts(double dt) {
   if (speed2_known_ && (std::sqrt(speed2_) / smallest_radius_ + fall) * dt < 0.99 * safe_travel) return 1;
   if (has_sinks(scene_.box) || smallest_may_be_gone_) smallest_radius_ = smallest_radius(state_.disks);
   const Count parts = parts_of_step(exact_travel2(), common_travel(scene_, dt, smallest_radius_), dt);
-  if (parts > 1) validity_.see_split(state_, dt, parts);
+  if (parts > 1) validity_.note_split(state_, dt, parts);
   return parts;
 }
 

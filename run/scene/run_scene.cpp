@@ -75,7 +75,7 @@ StartedEngine start_engine(const Scene& scene, ResumeFrom* from, RunSettings& se
   start.engine = within_memory(scene, [&] { return engine_of(scene, from, settings); });
   const StateSums sums = sums_of(*start.engine, scene, settings.engine);
   start.at = sums.at;
-  start.warnings = validity_of(scene, sums.smallest_radius, sums.fastest);
+  start.warnings = validity_warnings_at_start(scene, sums.smallest_radius, sums.fastest);
   if (!settings.strict) return start;
   fail_if_any(start.warnings);
   if (from != nullptr) fail_if_any(warnings_so_far(from->checkpoint.record, scene, start.engine->progress()));

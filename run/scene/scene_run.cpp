@@ -53,7 +53,7 @@ void tell_all(const RunListener& listener, const std::vector<std::string>& warni
 
 std::vector<std::string> warnings_so_far(const RunRecord& record, const Scene& scene, const State& state) {
   std::vector<std::string> warnings = record.warnings;
-  for (std::string& warning : validity_so_far(scene, state)) warnings.push_back(std::move(warning));
+  for (std::string& warning : validity_warnings_so_far(scene, state)) warnings.push_back(std::move(warning));
   return warnings;
 }
 
@@ -251,7 +251,7 @@ RunOutcome SceneRun::finished() {
     keeps_checkpoint = keep_last_checkpoint(mark);
     take_output_warnings();
   }
-  for (const std::string& warning : worst_moments(scene_, engine_.progress())) {
+  for (const std::string& warning : worst_moment_warnings(scene_, engine_.progress())) {
     if (std::find(told_.begin(), told_.end(), warning) == told_.end()) tell(listener_.warning, warning);
   }
   keeper_.discard_own_folder();

@@ -52,7 +52,7 @@ Simulation::Simulation(Scene scene, EngineChoice engine, const std::function<voi
   fixed_ = cells_of(scene_, state(), false);
   walls_ = cells_of(scene_, state(), true);
   start_ = run_start(state(), scene_);
-  warnings_ = validity_of(scene_, smallest_radius(state().disks), fastest_speed(state().disks));
+  warnings_ = validity_warnings_at_start(scene_, smallest_radius(state().disks), fastest_speed(state().disks));
 }
 
 Simulation::Simulation(Checkpoint checkpoint, const std::string& name, EngineChoice engine)
@@ -203,7 +203,7 @@ Summary Simulation::summary() const {
   // After a change by an engine for this alone: the next step's would move the disks that a caller looks at.
   const std::unique_ptr<Engine> looks = edited_ ? make_engine(choice_, scene_, *edited_) : nullptr;
   Summary s = summarize(start(), looks ? *looks : *engine_, scene_, choice_);
-  s.warnings = validity_so_far(scene_, state());
+  s.warnings = validity_warnings_so_far(scene_, state());
   if (!done()) return s;
   const std::vector<std::string> at_end = few_inaccurate_warnings(scene_, state());
   s.warnings.insert(s.warnings.end(), at_end.begin(), at_end.end());

@@ -45,7 +45,7 @@ TEST(LateCollisions, FewLateCollisionsAreToldOfAtTheEnd) {
   const auto told_at_end = [](const Scene& scene) {
     const auto engine = make_parallel_engine(scene, initial_state(scene), {1, 512});
     EXPECT_THAT(warnings_on_the_way(*engine, scene), IsEmpty());
-    EXPECT_THAT(validity_so_far(scene, engine->state()), IsEmpty());
+    EXPECT_THAT(validity_warnings_so_far(scene, engine->state()), IsEmpty());
     return few_inaccurate_warnings(scene, engine->state());
   };
   EXPECT_THAT(

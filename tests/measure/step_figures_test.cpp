@@ -23,7 +23,7 @@ TEST(StepFigures, OfAPileLateCollisionsAreSaidWithRollbackAlone) {
     StepFigures figures;
     figures.inaccurate = 20;
     Validity validity;
-    validity.see_step(scene, figures, state);
+    validity.note_step(scene, figures, state);
     EXPECT_EQ(validity.take_warnings().size(), method == Method::rollback ? 1U : 0U);
   }
 }
@@ -38,10 +38,10 @@ TEST(StepFigures, AnOverlapBeforeAStepIsKeptAndSaid) {
     figures.left = {0.5 * largest_overlap, 1, 2};
     figures.before = {before, 0, 2};
     Validity validity;
-    validity.see_step(scene, figures, state);
+    validity.note_step(scene, figures, state);
     EXPECT_EQ(state.validity.disks.overlap.size, before);
     EXPECT_EQ(validity.take_warnings().size(), before > largest_overlap_before ? 1U : 0U);
-    EXPECT_EQ(worst_moments(scene, state).size(), before > largest_overlap_before ? 1U : 0U);
+    EXPECT_EQ(worst_moment_warnings(scene, state).size(), before > largest_overlap_before ? 1U : 0U);
   }
 }
 
@@ -52,11 +52,11 @@ TEST(StepFigures, AnOverlapWithAWallByExactIsAMissedContact) {
   StepFigures figures;
   figures.wall = {0.1, 1, wall_partner(Side::left)};
   Validity validity;
-  validity.see_step(scene, figures, state);
+  validity.note_step(scene, figures, state);
   const std::vector<std::string> said = validity.take_warnings();
   ASSERT_EQ(said.size(), 1U);
   EXPECT_NE(said[0].find("of its radius beyond the left wall: a contact was missed"), std::string::npos) << said[0];
-  EXPECT_EQ(worst_moments(scene, state), said);
+  EXPECT_EQ(worst_moment_warnings(scene, state), said);
 }
 
 // Between walls that move, a disk that reaches deep into another is crushed as one that reaches into a wall.
@@ -69,7 +69,7 @@ TEST(StepFigures, TheDeeperOfAWallAndADiskIsCrushed) {
       StepFigures figures;
       figures.left = {0.4, 1, 2};
       figures.wall = {of_wall, 3, wall_partner(Side::left)};
-      Validity().see_step(scene, figures, state);
+      Validity().note_step(scene, figures, state);
       EXPECT_EQ(state.validity.crushed.overlap.size, moves ? std::max(0.4, of_wall) : 0.0);
     }
   }
@@ -85,7 +85,7 @@ TEST(StepFigures, TheWorstStallOfRollbackIsKept) {
   for (const double share : {0.04, 0.02, 0.03}) {
     for (Count frame = 0; frame < frames_watched; ++frame) {
       state.time += share;
-      validity.see_step(scene, {}, state);
+      validity.note_step(scene, {}, state);
     }
   }
   EXPECT_EQ(validity.take_warnings().size(), 1U);

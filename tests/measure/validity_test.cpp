@@ -72,7 +72,7 @@ TEST(Validity, AStepThatIsSplitIsNamedWithItsLength) {
                                           {"run.dt", in_units(16.0)}});
     const auto engine = make_parallel_engine(scene, initial_state(scene), {1, 512});
     const std::vector<std::string> warnings = warnings_of(*engine, scene);
-    EXPECT_EQ(warnings, worst_moments(scene, engine->state()));
+    EXPECT_EQ(warnings, worst_moment_warnings(scene, engine->state()));
     EXPECT_THAT(warnings,
                 ElementsAre(HasSubstr(fmt::format("at time 0 the fastest disk moves more than half its radius "
                                                   "in dt = {:g}: the step is split into 4 parts",
@@ -180,7 +180,7 @@ ValidityCounts kept_by_both(const Scene& scene, const State& start, Engine& refe
   const ValidityCounts& kept = reference.state().validity;
   expect_same(parallel->state().validity.disks, kept.disks);
   expect_same(parallel->state().validity.wall, kept.wall);
-  EXPECT_EQ(validity_so_far(scene, parallel->state()), validity_so_far(scene, reference.state()));
+  EXPECT_EQ(validity_warnings_so_far(scene, parallel->state()), validity_warnings_so_far(scene, reference.state()));
   return kept;
 }
 
@@ -210,7 +210,7 @@ TEST(Validity, TheWorstIsReportedAtTheEnd) {
   const std::string worst = fmt::format("at time {:g} disk {} reaches {:.2g} % of its radius beyond the left wall",
                                         kept.wall.time, kept.wall.overlap.id1, 100.0 * kept.wall.overlap.size);
   EXPECT_THAT(engine->take_warnings(), ::testing::Not(::testing::Contains(HasSubstr(worst))));
-  EXPECT_THAT(validity_so_far(scene, engine->state()), ::testing::Contains(HasSubstr(worst)));
+  EXPECT_THAT(validity_warnings_so_far(scene, engine->state()), ::testing::Contains(HasSubstr(worst)));
 }
 
 TEST(Validity, ExactSaysThatTheCollapseModelTakesOver) {
@@ -258,7 +258,7 @@ every = 0.01
     const std::vector<std::string> warnings = warnings_of(*reference, scene);
     EXPECT_EQ(warnings_of(*parallel, scene), warnings);
     expect_same(parallel->state().validity.wall, reference->state().validity.wall);
-    EXPECT_EQ(validity_so_far(scene, parallel->state()).size(), warnings.size());
+    EXPECT_EQ(validity_warnings_so_far(scene, parallel->state()).size(), warnings.size());
     return warnings;
   };
   for (std::size_t i = 0; i < start.disks.size(); ++i) {
@@ -283,20 +283,22 @@ TEST(Validity, ExactKeepsTheDeepestOfWallsThatMove) {
 
 TEST(Validity, ScenesThatNoMethodServesWarnBeforeTheFirstStep) {
   Scene scene = test::scene_from(test::sound_scene);
-  EXPECT_THAT(validity_of(scene, 1.0), IsEmpty());
-  EXPECT_THAT(validity_of(scene, 0.0), IsEmpty());
-  EXPECT_THAT(validity_of(scene, 1e-9), ElementsAre(HasSubstr("in a box of 20 places are known to 2.2e-06 of the")));
-  EXPECT_THAT(validity_of(scene, 1.0, 3.0), IsEmpty());
+  EXPECT_THAT(validity_warnings_at_start(scene, 1.0), IsEmpty());
+  EXPECT_THAT(validity_warnings_at_start(scene, 0.0), IsEmpty());
+  EXPECT_THAT(validity_warnings_at_start(scene, 1e-9),
+              ElementsAre(HasSubstr("in a box of 20 places are known to 2.2e-06 of the")));
+  EXPECT_THAT(validity_warnings_at_start(scene, 1.0, 3.0), IsEmpty());
   scene.run.dt = 1e-16;
   EXPECT_THAT(
-      validity_of(scene, 1.0, 3.0),
+      validity_warnings_at_start(scene, 1.0, 3.0),
       ElementsAre(AllOf(HasSubstr("the fastest disk moves by 3e-16 in dt = 1e-16, and in a box of 20 places are"),
                         HasSubstr("motion is lost in rounding; use a longer dt"))));
-  EXPECT_THAT(validity_of(scene, 1.0, 0.0), IsEmpty()) << "nothing moves";
+  EXPECT_THAT(validity_warnings_at_start(scene, 1.0, 0.0), IsEmpty()) << "nothing moves";
   scene.physics.diffusion = 2.0;
   scene.run.dt = 1.0;
-  EXPECT_THAT(validity_of(scene, 1.0), ElementsAre(AllOf(HasSubstr("a Brownian disk moves by 2 of the smallest radius"),
-                                                         HasSubstr("use dt <= 0.062"))));
+  EXPECT_THAT(
+      validity_warnings_at_start(scene, 1.0),
+      ElementsAre(AllOf(HasSubstr("a Brownian disk moves by 2 of the smallest radius"), HasSubstr("use dt <= 0.062"))));
 }
 
 // In half a period a wall comes back to where it was: at its mean speed it stands still, and a gas keeps the energy
@@ -315,13 +317,13 @@ TEST(Validity, AStepThatIsLongAgainstAVibrationIsToldBeforeTheFirst) {
     SCOPED_TRACE(where);
     for (const char* method : {"pairwise", "rollback"}) {
       EXPECT_THAT(
-          validity_of(shaken(where, method, 0.025), 0.5, 3.0),
+          validity_warnings_at_start(shaken(where, method, 0.025), 0.5, 3.0),
           ElementsAre(AllOf(HasSubstr("a wall vibrates with a period of 0.05 and moves at its mean speed in dt = "
                                       "0.025"),
                             HasSubstr("use dt <= 0.005 or run.method = \"exact\""))));
-      EXPECT_THAT(validity_of(shaken(where, method, 0.005), 0.5, 3.0), IsEmpty());
+      EXPECT_THAT(validity_warnings_at_start(shaken(where, method, 0.005), 0.5, 3.0), IsEmpty());
     }
-    EXPECT_THAT(validity_of(shaken(where, "exact", 0.025), 0.5, 3.0), IsEmpty());
+    EXPECT_THAT(validity_warnings_at_start(shaken(where, "exact", 0.025), 0.5, 3.0), IsEmpty());
   }
   const auto work = [&](const char* method, double dt) {
     const Scene scene = shaken("bottom", method, dt);
@@ -345,14 +347,14 @@ TEST(Validity, SharesAreOfTheCollisionsThatAreWatched) {
     figures.inaccurate = inaccurate;
     figures.inaccurate_at_walls = at_walls;
     Validity validity;
-    validity.see_step(scene, figures, state);
+    validity.note_step(scene, figures, state);
     return validity.take_warnings();
   };
   State a, b, c, d;
   EXPECT_THAT(said(Method::exact, 20, 0, a), IsEmpty()) << "2 %";
   EXPECT_THAT(said(Method::pairwise, 20, 0, b), ElementsAre(HasSubstr("20 of 100 collisions were seen a step late")));
   EXPECT_THAT(said(Method::pairwise, 0, 20, c), ElementsAre(HasSubstr("20 of 1000 bounces off walls and obstacles")));
-  EXPECT_THAT(validity_so_far(scene, c), ElementsAre(HasSubstr("20 of 1000 bounces off walls and obstacles")));
+  EXPECT_THAT(validity_warnings_so_far(scene, c), ElementsAre(HasSubstr("20 of 1000 bounces off walls and obstacles")));
   EXPECT_THAT(said(Method::pairwise, 0, 10, d), IsEmpty()) << "ten are no share";
 }
 
@@ -364,7 +366,7 @@ TEST(Validity, AnOverlapWithAWallIsNamedToo) {
     StepFigures figures;
     figures.wall = {overlap, 1, wall_partner(Side::left)};
     Validity validity;
-    validity.see_step(scene, figures, state);
+    validity.note_step(scene, figures, state);
     if (overlap < largest_overlap_before) {
       EXPECT_THAT(validity.take_warnings(), IsEmpty());
     } else {

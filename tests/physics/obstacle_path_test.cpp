@@ -322,7 +322,7 @@ TEST(WallOverlap, IsOfWallsAndObstaclesButNotInAnOpening) {
   box.obstacles = &cells;
   const auto deepest = [&](double x, double y) {
     Overlap overlap;
-    see_wall_overlap(x, y, 2.0, 7, box, overlap);
+    raise_to_wall_overlap(x, y, 2.0, 7, box, overlap);
     return overlap;
   };
   EXPECT_EQ(deepest(5.0, 1.5).size, 0.0);

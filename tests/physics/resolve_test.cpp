@@ -343,13 +343,13 @@ TEST(SeeShear, CountsMomentumThatGoesAlongY) {
   for (const int rows : {-1, 0, 1}) {
     PairImpact smooth;
     smooth.virial = 4.0;
-    see_shear(smooth, r, rows, 2.4, false, shear);
+    record_shear(smooth, r, rows, 2.4, false, shear);
     EXPECT_TRUE(smooth.sheared);
     EXPECT_DOUBLE_EQ(smooth.shear_virial, 4.0 * 0.48);
     EXPECT_DOUBLE_EQ(smooth.shear_work, -5.0 * rows * 2.4);
     PairImpact rough;
     rough.virial = 4.0;
-    see_shear(rough, r, rows, 3.0, true, shear);
+    record_shear(rough, r, rows, 3.0, true, shear);
     EXPECT_DOUBLE_EQ(rough.shear_virial, 0.8 * 3.0);
   }
 }

@@ -83,7 +83,8 @@ Run run_method(const Case& c, const std::string& folder, const std::string& meth
   run.result.method = method;
   run.scene = scene_for(c, folder, method);
   run.start = initial_state(*run.scene);
-  run.result.warnings = validity_of(*run.scene, smallest_radius(run.start.disks), fastest_speed(run.start.disks));
+  run.result.warnings =
+      validity_warnings_at_start(*run.scene, smallest_radius(run.start.disks), fastest_speed(run.start.disks));
   const auto engine = engine_for(*run.scene, run.start, which);
   step_through(c, *engine, run);
   take(*engine, run.result);
