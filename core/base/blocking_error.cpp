@@ -36,8 +36,8 @@ Scatter scatter_of(const std::vector<Block>& blocks) {
   return {std::sqrt(squares / (n - 1.0) * n) / weight, squares > 0.0 ? products / squares : 0.0};
 }
 
-// That of blocks which go on as the one before did: as if a share c of what a block is off by were left in the next,
-// c^2 in the one after it, and so on. A c that independent blocks have by chance is none.
+// The error where blocks are correlated: it is taken that a share c of a block's deviation is left in the next block,
+// c^2 in the one after it, and so on. A c as small as independent blocks have by chance counts as 0.
 double error_of_correlated(const Scatter& scatter, std::size_t blocks) {
   const double c = scatter.correlation;
   if (!(c > 1.0 / std::sqrt(static_cast<double>(blocks)))) return scatter.error;

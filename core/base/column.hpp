@@ -1,6 +1,6 @@
-// Numbers of a std::vector as a column of Eigen, for what is measured and fitted: never for what a run's bits hang on.
-// Eigen is built without vector instructions here (cmake/Dependencies.cmake), so that sums run from the first entry to
-// the last on every machine. For .cpp files: it is slow to compile.
+// Numbers of a std::vector as a column of Eigen, for what is measured and fitted: never for what decides the bits of a
+// run. Eigen is built without vector instructions here (cmake/Dependencies.cmake), so that sums run from the first
+// entry to the last on every machine. For .cpp files: it is slow to compile.
 #pragma once
 
 #include <Eigen/Core>

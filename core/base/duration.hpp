@@ -6,10 +6,10 @@
 
 namespace carom {
 
-// What messages say was expected.
+// The second half of a message about a text that parse_duration does not accept.
 inline constexpr std::string_view expected_duration = "expected a time such as 30 s, 10 min or 2 h";
 
-// Seconds; nothing where the text is no number above 0 with one of the units s, min, h or none (seconds).
+// Seconds; nothing unless the text is a number above 0 with the unit s, min or h, or with none (seconds).
 std::optional<double> parse_duration(std::string_view text);
 
 }  // namespace carom

@@ -32,9 +32,10 @@ class ExactSum {
     limbs_[limb + 2] += sign * static_cast<std::int64_t>(high >> 32);
   }
 
-  // All of them, several times faster than one by one where most are within a factor of 2^36. Precondition: finite.
+  // Adds all of them, several times faster than one by one where most are within a factor of 2^36. Precondition:
+  // finite.
   void add(std::span<const double> values);
-  // The same where the largest of their sizes is known. Precondition: at most `block` of them.
+  // The same where their largest magnitude is known. Precondition: at most `block` values.
   void add(std::span<const double> values, double largest);
   static constexpr std::size_t block = 256;
 
@@ -42,10 +43,10 @@ class ExactSum {
     for (std::size_t k = 0; k < limbs_.size(); ++k) limbs_[k] += other.limbs_[k];
   }
 
-  // The digits: those of several sums, added up one by one, are the digits of their sum.
+  // The digits of the number. Digits of several sums, added up place by place, are the digits of their sum.
   std::span<std::int64_t> digits() { return limbs_; }
 
-  // The sum, correctly rounded: so it scales exactly with powers of two.
+  // The sum, rounded once, correctly; so it scales exactly with powers of two.
   double value() const {
     std::array<std::int64_t, limb_count> digits = limbs_;
     const bool negative = carry_over(digits) < 0;
@@ -55,7 +56,7 @@ class ExactSum {
     }
     std::size_t top = limb_count - 1;
     while (top > 2 && digits[top] == 0) --top;
-    // At least 65 bits from the first one on; one more says whether anything but zeros follows.
+    // At least 65 bits from the leading one on; the lowest of them is set if anything but zeros follows.
     Wide leading = 0;
     for (std::size_t k = 0; k < 3; ++k) leading = (leading << 32) + static_cast<Wide>(digits[top - k]);
     const auto below = digits.begin() + static_cast<std::ptrdiff_t>(top - 2);
@@ -81,7 +82,7 @@ class ExactSum {
   std::array<std::int64_t, limb_count> limbs_{};
 };
 
-// The largest size of these; 0 of none.
+// The largest magnitude among the values; 0 if there are none.
 double largest_size(std::span<const double> values);
 
 }  // namespace carom

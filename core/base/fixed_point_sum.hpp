@@ -1,12 +1,12 @@
-// Sums of terms of a known size that do not depend on their order, so that threads and ranks may share them out. Of any
-// terms, and without a rounding, in 34 times the memory: exact_sum.hpp.
+// Sums of terms of a bounded size that do not depend on the order of the terms, so that threads and ranks may share
+// them out. For terms of any size, without rounding, and in 34 times the memory, there is exact_sum.hpp.
 #pragma once
 
 #include <cstdint>
 
 namespace carom {
 
-// In units of 2^-40: high * 2^20 + low. Sums of many may be added number by number.
+// high * 2^20 + low, in units of 2^-40. Two sums are added by adding their members one by one.
 struct FixedPointSum {
   std::int64_t high = 0, low = 0;
 };

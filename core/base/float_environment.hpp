@@ -1,5 +1,5 @@
-// How the processor rounds and what it does with the smallest numbers: part of the bits, and a host program may have
-// changed both (libraries built with -ffast-math set flush-to-zero when they are loaded).
+// How the processor rounds and whether it keeps denormal numbers. Both decide the bits of a run, and a host program may
+// have changed both (libraries built with -ffast-math set flush-to-zero when they are loaded).
 #pragma once
 
 #ifdef __SSE2__
@@ -12,9 +12,10 @@
 
 namespace carom {
 
-// From its construction to its end, this thread rounds to nearest, keeps denormal numbers and traps nothing; then all
-// is as it was, but for the flags of exceptions that have occurred. At the entries of the library and in every block of
-// work that another thread runs. On x86 the older unit too, by whose mode the C library rounds the numbers of a text.
+// While an object of this class lives, its thread rounds to nearest, keeps denormal numbers and traps nothing; its
+// destructor restores the modes, but not the flags of exceptions that have occurred. One stands at each entry of the
+// library and around every block of work that another thread runs. On x86 it also sets the x87 unit, whose mode the C
+// library uses when it converts numbers from text.
 class FloatEnvironment {
  public:
   FloatEnvironment();
@@ -30,7 +31,7 @@ class FloatEnvironment {
 
 // Bits 0 to 5 tell of exceptions that have occurred, which change no result.
 inline constexpr unsigned float_control = ~0x3fU, usual_float_control = 0x1f80U;
-// All digits, to nearest, no traps.
+// Full precision, rounding to nearest, no traps.
 inline constexpr std::uint16_t usual_x87_control = 0x037fU;
 
 inline std::uint16_t x87_control() {
@@ -43,7 +44,7 @@ inline void set_x87_control(std::uint16_t control) {
   __asm__ volatile("fldcw %0" : : "m"(control));
 }
 
-// Writing a register costs more than reading it, and mostly it is as it should be.
+// Writing the register costs more than reading it, and usually it has the right value already.
 inline FloatEnvironment::FloatEnvironment() : x87_before_(x87_control()) {
   if ((before_ & float_control) != usual_float_control) _mm_setcsr(usual_float_control);
   if (x87_before_ != usual_x87_control) set_x87_control(usual_x87_control);

@@ -1,4 +1,4 @@
-// Pages of memory: large ones under arrays that are read at random, and those given back that are read no more.
+// Memory pages: huge ones for arrays that are read at random, and a way to give pages back to the system.
 #pragma once
 
 #include <sys/mman.h>
@@ -11,9 +11,10 @@
 
 namespace carom {
 
-// v.reserve(n), with a word to the system before the memory is touched: with pages of 4 KiB, every random access to
-// hundreds of megabytes is a walk through the page table besides. Changes no value; ignored where there is no such
-// page. room: for so many, where v allocates; what is beyond n is in small pages. None takes memory until it is used.
+// v.reserve(n) that asks the system for huge pages before the memory is touched: with pages of 4 KiB, every random
+// access to hundreds of megabytes also costs a walk through the page table. Changes no value; does nothing where the
+// system has no huge pages. room: v reserves so many entries if that is more than n; entries beyond n lie in small
+// pages. No page takes memory before it is used.
 template <class T>
 void reserve_in_huge_pages(std::vector<T>& v, std::size_t n, std::size_t room = 0) {
   constexpr std::uintptr_t huge_page = std::uintptr_t{1} << 21;
@@ -25,15 +26,15 @@ void reserve_in_huge_pages(std::vector<T>& v, std::size_t n, std::size_t room = 
   }
 }
 
-// v.resize(n, value), in such pages.
+// v.resize(n, value), in huge pages.
 template <class T>
 void resize_in_huge_pages(std::vector<T>& v, std::size_t n, const T& value = T{}, std::size_t room = 0) {
   reserve_in_huge_pages(v, n, room);
   v.resize(n, value);
 }
 
-// Gives the memory of v[begin] to v[end - 1] back to the system, as far as it fills pages; what is read there
-// afterwards is zero, or as it was.
+// Gives the whole pages among v[begin] to v[end - 1] back to the system; an entry there is afterwards zero or
+// unchanged.
 template <class T>
 void give_back_pages(std::vector<T>& v, std::size_t begin, std::size_t end) {
   const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));

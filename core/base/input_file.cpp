@@ -39,7 +39,7 @@ std::string_view kind_of(mode_t mode) {
   return "is a device";
 }
 
-// Does the path stand for what the caller has opened for this process, as a shell's <(...) does?
+// Does the path name a stream that the caller has opened for this process, as a shell's <(...) does?
 bool is_of_this_process(std::string_view path) {
   return path == "/dev/stdin" || path.starts_with("/dev/fd/") || path.starts_with("/proc/self/fd/");
 }

@@ -11,8 +11,9 @@ namespace carom {
 
 namespace {
 
-// Does the character that begins with these bytes turn what follows from right to left, end the line, or show nothing?
-// A name with it reads as another one. The two joiners, U+200C and U+200D, are not among them: some scripts need them.
+// Is the character that begins with these bytes invisible, or does it end the line or reverse the direction of writing?
+// A name that contains one can look like another name. The two joiners, U+200C and U+200D, are allowed: some scripts
+// need them.
 bool misleads(unsigned first, unsigned second, unsigned third) {
   if (first == 0xd8) return second == 0x9c;                   // U+061C
   if (first == 0xef) return second == 0xbb && third == 0xbf;  // U+FEFF
@@ -22,8 +23,7 @@ bool misleads(unsigned first, unsigned second, unsigned third) {
                             (third >= 0xa8 && third <= 0xae));                  // U+2028 to U+202E
 }
 
-// How many bytes the character of UTF-8 has that the text begins with; 0 where it begins with none, or with a control
-// character.
+// The number of bytes of the first character of the text; 0 if that is not valid UTF-8, or not to be shown.
 std::size_t shown_length(std::string_view text) {
   const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
   const unsigned first = byte(0);
@@ -33,7 +33,7 @@ std::size_t shown_length(std::string_view text) {
   for (std::size_t k = 1; k < length; ++k) {
     if ((byte(k) & 0xc0U) != 0x80) return 0;
   }
-  // Too long for what they are, halves of UTF-16, beyond the last character; and control characters of two bytes.
+  // Overlong forms, UTF-16 surrogates, numbers above U+10FFFF; and control characters of two bytes.
   const unsigned second = byte(1);
   if ((first == 0xe0 && second < 0xa0) || (first == 0xed && second >= 0xa0)) return 0;
   if ((first == 0xf0 && second < 0x90) || (first == 0xf4 && second >= 0x90)) return 0;

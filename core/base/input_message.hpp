@@ -7,18 +7,19 @@
 
 namespace carom {
 
-// Text with names that users chose, or of a damaged file, as a terminal may have it: control characters, those that
-// turn text from right to left or show nothing, and bytes that are no UTF-8 become '?', one for each byte. It stays one
-// line, and Python can have it as a string.
+// Makes text from a user or from a damaged file safe to print: control characters, characters that are invisible or
+// reverse the direction of writing, and bytes that are not UTF-8 become '?', one for each byte. The result is one line
+// of valid UTF-8.
 std::string one_line(std::string_view text);
 
-// Throws InputError with that line, one_line() of it. where is "file:line: key"; an empty expected is left out.
+// Throws InputError with the line "where: what; expected", made safe by one_line(). where is "file:line: key"; an empty
+// expected is left out.
 [[noreturn]] void fail_input(std::string_view where, std::string_view what, std::string_view expected = {});
 
-// Text from the user in double quotes, cut short after 60 characters.
+// Text from the user in double quotes, cut after 60 characters.
 std::string in_quotes(std::string_view text);
 
-// "expected one of a, b, c (nearest: b)" for a name that is none of them; the nearest only if it is near.
+// "expected one of a, b, c (nearest: b)" for a name that is none of them; the nearest is named only if is_near() holds.
 std::string expected_one_of(std::span<const std::string_view> known, std::string_view name);
 
 }  // namespace carom

@@ -3,7 +3,7 @@
 
 namespace carom {
 
-// Bytes of the machine's memory; infinity where it does not say.
+// Bytes of the machine's memory; infinity where the system does not tell.
 double machine_memory();
 
 }  // namespace carom

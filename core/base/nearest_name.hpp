@@ -14,8 +14,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b);
 // The entry of known with the smallest edit distance to name, the first of several. Precondition: known not empty.
 std::string_view nearest_name(std::string_view name, std::span<const std::string_view> known);
 
-// Is known so near to name that it may have been meant? At most half of the longer one differs; dashes before
-// options do not count.
+// Is known close enough to name to have been meant? At most half of the longer one may differ; dashes before options do
+// not count.
 bool is_near(std::string_view name, std::string_view known);
 
 }  // namespace carom

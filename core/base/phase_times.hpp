@@ -1,4 +1,4 @@
-// Wall time spent in each phase of the step, by name. Measured, never read by the physics.
+// Wall time spent in each phase of the step, by name. The physics never reads it.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ struct Phase {
 // Phases in the order in which they first ran.
 class PhaseTimes {
  public:
-  // add() takes no memory then: a timer that ends must not fail, as what ends it may be that there is none.
+  // So add() allocates nothing: it is called from destructors, also while an exception for lack of memory passes.
   PhaseTimes() {
     constexpr std::size_t more_than_there_are = 32;
     phases_.reserve(more_than_there_are);

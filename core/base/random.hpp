@@ -38,8 +38,8 @@ TwoUniforms uniforms(std::uint64_t seed, Stream stream, DiskId id, std::uint64_t
 // Two independent standard normal deviates (polar method of Marsaglia, with deterministic_log in place of libm's).
 Vec2 normals(std::uint64_t seed, Stream stream, DiskId id, std::uint64_t step);
 
-// A standard normal deviate drawn again until it lies within this many standard deviations, which one in 16,000 does
-// not. A run's sizes so have bounds that its cells and checks can rely on.
+// A standard normal deviate, drawn again until it lies within this many standard deviations; one draw in 16,000 does
+// not. So the radii of a run have bounds that its cells and checks can rely on.
 inline constexpr double most_deviations = 4.0;
 double bounded_normal(std::uint64_t seed, Stream stream, DiskId id);
 

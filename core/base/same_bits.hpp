@@ -1,4 +1,4 @@
-// Are two numbers the same, as what is computed twice has to be?
+// Equality of doubles bit by bit, as a number has to be that is computed in two ways.
 #pragma once
 
 #include <bit>
@@ -6,7 +6,7 @@
 
 namespace carom {
 
-// 0 and -0 are not; a NaN and itself are.
+// Unlike ==: 0 and -0 differ, and a NaN equals itself.
 inline bool same_bits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }

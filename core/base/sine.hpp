@@ -1,5 +1,5 @@
-// The sine of a time that goes round in a period, with the same bits on every IEEE machine: from + - * / and exact
-// remainders alone.
+// Sine and cosine of a time in units of a period, with the same bits on every IEEE machine: only + - * / and exact
+// remainders are used.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@ struct SineCosine {
 
 namespace sine_detail {
 
-// Of an angle in [0, pi / 4], by their series, which end where a term is below 1e-17 of the sum.
+// For an angle in [0, pi / 4], by power series, which end where a term is below 1e-17 of the sum.
 inline SineCosine of_small_angle(double angle) {
   const double square = angle * angle;
   double sine = 1.0;
@@ -29,7 +29,7 @@ inline SineCosine of_small_angle(double angle) {
 }  // namespace sine_detail
 
 // sin and cos of 2 pi t / period; each within 4e-16 of the true value, and exact at multiples of a quarter period. The
-// time is reduced without error, however many periods it is. Preconditions: t >= 0, finite; period > 0, normal.
+// time is reduced to one period without error, however long it is. Preconditions: t >= 0, finite; period > 0, normal.
 inline SineCosine sine_in_period(double t, double period) {
   constexpr double half_pi = 1.57079632679489661923;
   const double quarters = 4.0 * std::fmod(t, period);  // fmod is exact by its definition, as floor is

@@ -1,4 +1,4 @@
-// Wall time, for costs and deadlines: nothing that decides bits may ask for it.
+// Wall time, for costs and deadlines. Nothing that decides the bits of a run may depend on it.
 #pragma once
 
 #include <chrono>
