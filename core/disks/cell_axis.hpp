@@ -1,4 +1,4 @@
-// Cells along one side of the box, counted on across periodic sides.
+// Cells along one side of the box. Across periodic sides their numbers go on: below 0, and above the number of cells.
 #pragma once
 
 #include <algorithm>
@@ -17,13 +17,13 @@ struct CellAxis {
   std::int64_t cells = 1;
   double cells_per_length = 1.0;
 
-  // That of a coordinate; beyond a side that is not periodic, the outermost one.
+  // The cell of a coordinate; beyond a side that is not periodic, the outermost cell.
   std::int64_t cell_of(double c) const {
     const double cell = std::floor(c * cells_per_length);
     const double last = static_cast<double>(cells - 1);
     return static_cast<std::int64_t>(periodic ? cell : std::clamp(cell, 0.0, last));
   }
-  // A little further at both ends, as coordinates of images are rounded.
+  // The cells from low to high, and a little further at both ends, since coordinates of images are rounded.
   Span span(double low, double high) const {
     const double slack = 1e-9 / cells_per_length;
     low -= slack;
@@ -35,7 +35,7 @@ struct CellAxis {
     }
     return {cell_of(low), cell_of(high)};
   }
-  // By how many periods a cell lies beyond the box, rounded down.
+  // The number of whole periods by which a cell lies beyond the box, rounded down.
   std::int64_t periods(std::int64_t cell) const {
     if (!periodic || (cell >= 0 && cell < cells)) [[likely]]
       return 0;

@@ -6,12 +6,12 @@ namespace carom {
 
 namespace {
 
-// A step is so much of a cell: what is stored is less than it is by no more.
+// Distances are stored in steps, so many of which make up a cell.
 constexpr double steps_a_cell = 4.0;
 constexpr std::uint8_t most_steps = 255;
-// So many cells around everything, distances are taken of each cell's middle; beyond, cells are counted.
+// Within so many cells of a shape, the distance of each cell's middle is computed; further off, cells are counted.
 constexpr double cells_measured = 4.0;
-// A little less than it is, as places are rounded.
+// Makes bounds a little smaller than computed, since places are rounded.
 constexpr double share = 1.0 - 1e-6;
 
 // The distance of a point from a shape's segment.
@@ -25,7 +25,8 @@ double distance_from_segment(const Clearance::Shape& shape, Vec2 point) {
   return std::sqrt(dx * dx + dy * dy);
 }
 
-// The shares of a shape's segment between which its height is within `reach` of this one; none where first > last.
+// The part of a shape's segment, in shares of its length, that lies within `reach` of this height; empty if first >
+// last.
 struct Part {
   double first, last;
 };
@@ -67,8 +68,8 @@ void Clearance::lay_cells(const Domain& box, std::size_t cells) {
   steps_.assign(static_cast<std::size_t>(x_.cells * y_.cells), most_steps);
 }
 
-// Row by row, so that a long segment costs the cells along it, not those of its rectangle. What reaches beyond a side
-// that is not periodic would be in no cell: its rectangle is.
+// Row by row, so that a long segment costs only the cells along it, not all those of its rectangle. A shape that
+// reaches beyond a side that is not periodic is entered as its rectangle, which can be clipped.
 void Clearance::enter_shape(const Shape& shape, std::vector<double>& nearest) const {
   const Vec2 to{shape.from.x + shape.along.x, shape.from.y + shape.along.y};
   const Extent extent{{std::min(shape.from.x, to.x) - shape.radius, std::min(shape.from.y, to.y) - shape.radius},
@@ -93,8 +94,8 @@ void Clearance::enter_shape(const Shape& shape, std::vector<double>& nearest) co
   }
 }
 
-// What is as long as a period is everywhere along it. Of what is beyond a side that is not periodic, the nearest place
-// in the box, which is no further from all the others.
+// Along a periodic axis, a rectangle longer than a period covers all of it. Beyond other sides the rectangle is clipped
+// to the box, which brings it no further from any place in the box.
 void Clearance::enter_extent(Extent extent, std::vector<double>& nearest) const {
   const auto clip = [](double& low, double& high, const CellAxis& axis) {
     if (axis.periodic) {
@@ -118,7 +119,8 @@ void Clearance::enter_extent(Extent extent, std::vector<double>& nearest) const 
       nearest);
 }
 
-// distance(middle): of what is in the extent from the middle of a cell, which may lie beyond periodic sides.
+// Lowers `nearest` in all cells of the extent. distance(middle): of the shape from the middle of a cell, which may lie
+// beyond periodic sides.
 template <class Distance>
 void Clearance::enter(const Extent& extent, Distance&& distance, std::vector<double>& nearest) const {
   const CellAxis::Span rows = y_.span(extent.low.y, extent.high.y);
@@ -133,8 +135,8 @@ void Clearance::enter(const Extent& extent, Distance&& distance, std::vector<dou
   }
 }
 
-// How many cells away, along either side, the nearest one is that something reaches into: from those to the eight
-// around each, and so on.
+// For each cell, how many cells away (the larger number along x or y) the nearest cell is into which a shape reaches.
+// Spreads from those cells to the eight around each, and so on.
 std::vector<std::uint8_t> Clearance::rings_around(const std::vector<double>& nearest) const {
   constexpr std::uint8_t furthest = 255;
   std::vector<std::uint8_t> rings(nearest.size(), furthest);
@@ -146,8 +148,8 @@ std::vector<std::uint8_t> Clearance::rings_around(const std::vector<double>& nea
     reached.push_back(cell);
   }
   const auto columns = static_cast<std::size_t>(x_.cells), rows = static_cast<std::size_t>(y_.cells);
-  // By how much an index changes to that of the cell before, along an axis of so many cells, or across its periodic
-  // side; to itself where there is none. Likewise of the cell after.
+  // The change of index from cell k of an axis to the cell before it (or after it), also across a periodic side; 0 if
+  // there is none. apart: the difference between neighbours' indices.
   const auto before = [](std::size_t k, std::size_t cells, bool periodic, std::size_t apart) {
     return k > 0 ? std::size_t{0} - apart : periodic ? (cells - 1) * apart : 0;
   };
@@ -170,8 +172,8 @@ std::vector<std::uint8_t> Clearance::rings_around(const std::vector<double>& nea
   return rings;
 }
 
-// The larger of two bounds: by the distance of the cell's middle, measured or more than what was measured, and by the
-// cells between it and those that something reaches into.
+// Stores the larger of two bounds: from the distance of the cell's middle, if that was computed, and from the number of
+// cells between it and the nearest one into which a shape reaches.
 void Clearance::store_bounds(const std::vector<double>& nearest) {
   const std::vector<std::uint8_t> rings = rings_around(nearest);
   for (std::size_t c = 0; c < steps_.size(); ++c) {
@@ -187,7 +189,7 @@ void Clearance::displace(Vec2 low, Vec2 high) {
     return axis.periodic ? shift - std::floor(shift / axis.length) * axis.length : shift;
   };
   shift_ = {in_box(0.5 * (low.x + high.x), x_), in_box(0.5 * (low.y + high.y), y_)};
-  // What has gone round a periodic box many times is known less exactly.
+  // A displacement of many periods is known less exactly.
   const double way = std::max({std::abs(low.x), std::abs(high.x), std::abs(low.y), std::abs(high.y)});
   const double rounding = 0x1p-46 * (way + x_.length + y_.length);
   blur_ = 0.5 * std::hypot(high.x - low.x, high.y - low.y) + rounding;

@@ -1,5 +1,5 @@
-// How far from all obstacles a place is, at least: one number a cell, so that disks that are far from them ask for
-// nothing else.
+// A map of lower bounds on the distance from all obstacles, one for each cell: a disk that is far from them needs one
+// look-up only.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,8 @@ namespace carom {
 
 class Clearance {
  public:
-  // All places within `radius` of a segment, or of its beginning; length. Beyond periodic sides it reaches over them.
+  // All places within `radius` (length) of a segment, or of a point where `along` is 0. It may reach across periodic
+  // sides.
   struct Shape {
     Vec2 from, along;
     double radius = 0.0;
@@ -26,37 +27,37 @@ class Clearance {
     Vec2 low, high;  // length
   };
   Clearance() = default;
-  // Of what lies in the box, in about so many cells.
+  // The map of these shapes, or rectangles, in about so many cells.
   Clearance(const Domain& box, const std::vector<Shape>& shapes, std::size_t cells);
   Clearance(const Domain& box, const std::vector<Extent>& extents, std::size_t cells);
 
-  // All that it is made of is displaced, by no less than `low` and no more than `high` along each axis, until the next
-  // call; length. Precondition: it stays in the box, but for periodic sides.
+  // Until the next call, all shapes are displaced by an unknown vector between `low` and `high`; length. Precondition:
+  // they do not cross sides that are not periodic.
   void displace(Vec2 low, Vec2 high);
 
-  // Nothing is nearer to this place; length, negative where it is not known. Not known beyond the sides.
+  // Every shape is at least this far from the place; length. Negative where nothing is known, as beyond the sides.
   double at(Vec2 place) const {
     const bool in_box = place.x >= 0.0 && place.y >= 0.0 && place.x < x_.length && place.y < y_.length;
     if (!in_box) return -HUGE_VAL;
-    // Where it would be if nothing were displaced. That may be beyond a side that is not periodic: then as at the side,
-    // from which all that is in the box is no further.
+    // The place as the undisplaced shapes see it. If it lies beyond a side that is not periodic, the place at that side
+    // is taken instead: nothing in the box is further from that.
     const std::int64_t column = cell_of(place.x - shift_.x, x_);
     const std::int64_t row = cell_of(place.y - shift_.y, y_);
     return step_ * static_cast<double>(steps_[static_cast<std::size_t>(row * x_.cells + column)]) - blur_;
   }
-  // Is there nothing in the rectangle? May say no where there is nothing, never the other way round.
+  // Does no shape reach into the rectangle? The answer may be a wrong no, never a wrong yes.
   bool is_clear(Vec2 low, Vec2 high) const {
     const double x = 0.5 * (high.x - low.x);
     const double y = 0.5 * (high.y - low.y);
     return std::sqrt(x * x + y * y) <= at({0.5 * (low.x + high.x), 0.5 * (low.y + high.y)});
   }
 
-  // What at() reads, for a kernel that does the same.
+  // The data of at(), for vector kernels that compute the same.
   struct Cells {
     const std::uint8_t* steps = nullptr;
     double columns = 0.0, rows = 0.0;
     double columns_per_length = 0.0, rows_per_length = 0.0;
-    Vec2 size, period;              // of the box; of its periodic sides, 0 of others; length
+    Vec2 size, period;              // of the box; period: 0 along an axis that is not periodic; length
     Vec2 shift;                     // length
     double step = 0.0, blur = 0.0;  // length
   };
@@ -71,7 +72,8 @@ class Clearance {
   std::vector<std::uint8_t> rings_around(const std::vector<double>& nearest) const;
   void store_bounds(const std::vector<double>& nearest);
 
-  // That of a coordinate less than a period before the box, or within it, or beyond sides that are not periodic.
+  // The cell of a coordinate, which lies in the box, less than a period before it, or beyond a side that is not
+  // periodic.
   static std::int64_t cell_of(double c, const CellAxis& axis) {
     if (c < 0.0 && axis.periodic) c += axis.length;
     const double last = static_cast<double>(axis.cells - 1);
@@ -82,9 +84,9 @@ class Clearance {
   double cell_ = 0.0;           // the shorter side of a cell; length
   double half_diagonal_ = 0.0;  // of a cell; length
   double step_ = 0.0;           // length
-  Vec2 shift_{};                // of all, in the box where that is periodic; length
-  double blur_ = 0.0;           // all may be displaced by so much more or less; length
-  // Of each cell, row by row: how many steps all of it is away from everything.
+  Vec2 shift_{};                // mean displacement of the shapes, within one period; length
+  double blur_ = 0.0;           // uncertainty of that displacement; length
+  // For each cell, row by row: the distance of the whole cell from all shapes in units of step_, rounded down.
   std::vector<std::uint8_t> steps_;
 };
 

@@ -1,5 +1,5 @@
-// The columns of Disks, each named once. What copies, moves, adds or removes whole disks goes through this list, so
-// that nothing forgets a column that is added to it.
+// The list of the columns of Disks. All code that copies, moves, adds or removes whole disks goes through it, so that a
+// new column cannot be forgotten.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace carom {
 
-// Which columns disks have of those that not every scene needs. Where there is no disk, the columns do not tell.
+// Which of the optional columns are present. Kept apart from Disks, because columns of no disks are empty in any case.
 struct DiskColumns {
   bool radius = false, mass = false, spin = false;
 };
@@ -21,13 +21,13 @@ inline DiskColumns columns_of(const Disks& d) {
 template <class T>
 struct DiskColumn {
   std::vector<T> Disks::*entries;
-  T Disk::*value;                     // what one disk has there
+  T Disk::*value;                     // the same quantity of a single disk
   bool DiskColumns::*flag = nullptr;  // null: disks always have it
 
   constexpr bool is_in(DiskColumns columns) const { return flag == nullptr || columns.*flag; }
 };
 
-// use(column) with each DiskColumn, that of ids last.
+// Calls use(column) with each DiskColumn; the one of ids comes last.
 template <class Use>
 constexpr void for_each_column(Use&& use) {
   use(DiskColumn<double>{&Disks::x, &Disk::x});
@@ -46,37 +46,36 @@ constexpr std::size_t count_columns() {
   return columns;
 }
 
-// Else a member of Disks is neither in the list of columns nor one of the three numbers that disks share
-// (copy_shared).
+// Fails if a member of Disks is neither in the list of columns nor one of the three shared numbers (copy_shared).
 static_assert(sizeof(Disks) == count_columns() * sizeof(std::vector<double>) + 3 * sizeof(double));
 
-// use(entries) with each column of these disks, those that are empty too.
+// Calls use(entries) with each column of these disks, empty ones too.
 template <class SomeDisks, class Use>
 void for_each_column(SomeDisks& d, Use&& use) {
   for_each_column([&](const auto& column) { use(d.*column.entries); });
 }
 
-// use(entries of one, entries of the other), likewise.
+// Calls use(entries of one, entries of the other) with each column.
 template <class SomeDisks, class OtherDisks, class Use>
 void for_each_column(SomeDisks& one, OtherDisks& other, Use&& use) {
   for_each_column([&](const auto& column) { use(one.*column.entries, other.*column.entries); });
 }
 
-// What all disks share.
+// Copies the numbers that all disks share.
 inline void copy_shared(const Disks& from, Disks& to) {
   to.common_radius = from.common_radius;
   to.common_mass = from.common_mass;
   to.inertia = from.inertia;
 }
 
-// Without a disk, but with what all share.
+// No disks, but the same shared numbers.
 inline Disks no_disks_like(const Disks& d) {
   Disks none;
   copy_shared(d, none);
   return none;
 }
 
-// A radius or a mass that the disks do not share with this one becomes a column.
+// Makes a column of the radius, or the mass, if this disk does not share the common one.
 inline void make_columns_for(const Disk& disk, DiskColumns& columns, Disks& d) {
   if (!columns.radius && disk.radius != d.common_radius) {
     d.radius.assign(d.size(), d.common_radius);
@@ -94,7 +93,7 @@ inline void push_back(Disks& d, const Disk& disk, DiskColumns columns) {
   });
 }
 
-// Writes a disk over the one that is stored there.
+// Overwrites disk i.
 inline void put_at(Disks& d, std::size_t i, const Disk& disk) {
   for_each_column([&](const auto& column) {
     auto& entries = d.*column.entries;
@@ -108,14 +107,14 @@ inline void copy_within(Disks& d, std::size_t from, std::size_t to) {
   });
 }
 
-// Only the first n disks stay.
+// Keeps the first n disks only.
 inline void truncate(Disks& d, std::size_t n) {
   for_each_column(d, [n](auto& entries) {
     if (!entries.empty()) entries.resize(n);
   });
 }
 
-// to: the disks that are stored at these places of `from`, in this order. Its columns keep the memory that they have.
+// Fills `to` with the disks stored at these places of `from`, in this order. Columns of `to` keep their memory.
 template <class Index>
 void gather_disks(const Disks& from, const std::vector<Index>& places, Disks& to) {
   copy_shared(from, to);
@@ -125,15 +124,15 @@ void gather_disks(const Disks& from, const std::vector<Index>& places, Disks& to
   });
 }
 
-// Room for n disks in all.
+// Reserves memory for n disks in all.
 inline void reserve(Disks& d, std::size_t n, DiskColumns columns) {
   for_each_column([&](const auto& column) {
     if (column.is_in(columns)) (d.*column.entries).reserve(n);
   });
 }
 
-// The same, and for a few more where that is not there: numbers of disks that go up and down a little do not move the
-// columns each time, and columns do not become twice as long, as push_back makes them.
+// The same, with a small reserve if memory has to grow: a number of disks that goes up and down a little does not move
+// the columns each time, and columns do not double, as they would with push_back.
 inline void reserve_amply(Disks& d, std::size_t n, DiskColumns columns) {
   for_each_column([&](const auto& column) {
     auto& entries = d.*column.entries;

@@ -1,4 +1,4 @@
-// Two disks that met in a step.
+// Two disks that were in contact in a step.
 #pragma once
 
 #include <tuple>
@@ -9,7 +9,7 @@ namespace carom {
 
 struct DiskContact {
   DiskId id1 = 0, id2 = 0;  // id1 < id2
-  double time = 0.0;        // exact: of the collision; time stepping: the step's end
+  double time = 0.0;        // exact: time of the collision; time stepping: end of the step
 
   bool operator<(const DiskContact& other) const {
     return std::tie(time, id1, id2) < std::tie(other.time, other.id1, other.id2);

@@ -1,4 +1,4 @@
-// Disks that are read a piece at a time, so that those of a file are never in memory all at once.
+// Disks that are read in pieces, so that the disks of a file need not all be in memory.
 #pragma once
 
 #include <algorithm>
@@ -17,17 +17,17 @@ class DiskSource {
   virtual ~DiskSource() = default;
 
   virtual std::size_t size() const = 0;
-  // Are there such columns? Of no disks, the disks themselves do not tell.
+  // Are there columns of radii, of masses? Asked here because empty pieces do not tell.
   virtual bool has_radii() const = 0;
   virtual bool has_masses() const = 0;
   // Disks [begin, end), in the same order each time. Precondition: begin <= end <= size().
   virtual Disks read(std::size_t begin, std::size_t end) = 0;
 };
 
-// Some megabytes.
+// Disks in a piece: a few megabytes.
 inline constexpr std::size_t disks_of_a_read = std::size_t{1} << 16;
 
-// use(piece) for all of them, one after the other.
+// Calls use(piece) for all pieces in order.
 template <class Use>
 void visit_pieces(DiskSource& source, Use&& use) {
   for (std::size_t begin = 0; begin < source.size(); begin += disks_of_a_read) {
@@ -35,7 +35,7 @@ void visit_pieces(DiskSource& source, Use&& use) {
   }
 }
 
-// Those that are in memory.
+// A source of disks that are in memory.
 class HeldDisks final : public DiskSource {
  public:
   explicit HeldDisks(Disks disks) : disks_(std::move(disks)) {}

@@ -1,5 +1,5 @@
-// The columns of the disks as kernels see them: radius and mass are a column or a constant, decided once per scene by
-// type, never per disk.
+// The columns of the disks for kernels. Whether radius and mass are columns or constants is part of the type, decided
+// once for a scene and never for each disk.
 #pragma once
 
 #include <cstddef>
@@ -10,12 +10,11 @@
 
 namespace carom {
 
-// In place of the spin of disks that have none.
+// Stands for the spin of disks that have none.
 struct NoSpin {};
 
-// What collisions ask for besides one number for the restitution: a RestitutionLaw; or, of rough disks, what their
-// surfaces do and a law if there is one; or, in a sheared box, where images are and how they move, and likewise a law
-// and what surfaces do.
+// What collisions need besides one number for the restitution. under_law: a RestitutionLaw. rough: the Surfaces of
+// rough disks, and perhaps a law. sheared: the Shear of the box, and perhaps a law and Surfaces.
 enum class ContactKind : std::uint8_t { plain, under_law, rough, sheared };
 
 template <bool own_radius, bool own_mass, ContactKind kind = ContactKind::plain>

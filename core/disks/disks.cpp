@@ -57,14 +57,14 @@ double smallest_radius(const Disks& d) {
 std::vector<std::size_t> by_id(const Disks& d) {
   std::vector<std::size_t> order;
   if (d.empty()) return order;
-  // Mostly nearly all ids up to the largest are there: every disk then knows its place, but for those that are not.
+  // Usually nearly all ids up to the largest exist. Then a table by id, from which absent ids are erased, is the order.
   const std::size_t ids = std::size_t{*std::max_element(d.id.begin(), d.id.end())} + 1;
   if (ids < 4 * d.size()) {
     constexpr auto absent = static_cast<std::size_t>(-1);
     order.assign(ids, absent);
     for (std::size_t i = 0; i < d.size(); ++i) order[d.id[i]] = i;
     std::erase(order, absent);
-    if (order.size() == d.size()) return order;  // else an id stands twice, as in a damaged file
+    if (order.size() == d.size()) return order;  // shorter only if an id occurs twice, as in a damaged file
   }
   order.resize(d.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

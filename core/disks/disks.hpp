@@ -48,7 +48,7 @@ void append(Disks& disks, const Disk& disk);
 // Returns how many were removed.
 std::size_t remove_marked(Disks& disks, const std::vector<unsigned char>& gone);
 
-// Removes entry i, which the last disk takes. Precondition: i is one of them.
+// Removes entry i; the last disk takes its place. Precondition: i < size.
 void take_out(Disks& disks, std::size_t i);
 
 // Largest and smallest radius present; 0 without disks.

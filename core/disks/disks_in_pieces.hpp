@@ -1,4 +1,4 @@
-// The disks of a moment in pieces, for a program that must not have all of them at once: one rank of several.
+// All disks at one moment, in pieces: for one rank of several, which must not hold all of them.
 #pragma once
 
 #include <functional>
@@ -22,31 +22,31 @@ class DisksInPieces {
   virtual double time() const = 0;
   virtual Count size() const = 0;  // of all pieces
 
-  // Calls use() for piece after piece: all ids of a piece are above those of the one before, and within it disks have
-  // any order. Each disk has the radius, the mass and the spin that it has in whole(). What use() throws ends it;
-  // use() asks nothing else of these disks or of their engine.
+  // Calls use() for piece after piece. All ids of a piece are above those of the piece before; within a piece the order
+  // is free. Radius, mass and spin are those of whole(). An exception thrown by use() ends the visit. use() must not
+  // call these disks or their engine.
   virtual void visit(const Use& use) const = 0;
 
-  // The largest overlap of two disks over the sum of their radii, where that is known without all disks.
+  // The largest overlap of two disks over the sum of their radii, if it is known without gathering all disks.
   virtual std::optional<double> max_overlap() const { return std::nullopt; }
 
-  // The pairs that the scene's [analysis] counts (core/measure/pair_records.hpp), where they are counted without all
-  // disks.
+  // The pairs that the scene's [analysis] counts (core/measure/pair_records.hpp), if they are known without gathering
+  // all disks.
   virtual std::optional<std::vector<PairCounts>> pair_counts() const { return std::nullopt; }
 
-  // Calls use() as visit() does, for the disks that the scene's [analysis] measures, with psi6 in place of velocities
-  // (core/measure/bond_order.hpp). False, with no call, where all disks are needed for that.
+  // As visit(), for the disks that the scene's [analysis] measures, with psi6 in place of velocities
+  // (core/measure/bond_order.hpp). Returns false, without a call, if that needs all disks.
   virtual bool visit_orders(const Use& /*use*/) const { return false; }
 
-  // The pairs that its bond correlation is made of (core/measure/bond_correlation.hpp), likewise; absent with fewer
-  // than seven disks, too.
+  // The pairs of the bond correlation (core/measure/bond_correlation.hpp), if they are known without gathering all
+  // disks. Absent with fewer than seven disks, too.
   virtual std::optional<BondPairs> bond_pairs() const { return std::nullopt; }
 
-  // All of them at once: of several ranks, on this one.
+  // All disks at once. Several ranks gather them on this one.
   virtual const Disks& whole() const = 0;
 };
 
-// Disks that are here as a whole; they outlive this.
+// Disks that are all in this program. They must outlive this object.
 class WholeDisks final : public DisksInPieces {
  public:
   WholeDisks(const Disks& disks, double time) : disks_(disks), time_(time) {}

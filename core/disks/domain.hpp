@@ -1,4 +1,4 @@
-// The rectangle [0, width] x [0, height], what its four sides do and what stands in it, nearest images and wrapping.
+// The box [0, width] x [0, height]: its four sides, its obstacles, nearest images and wrapping.
 #pragma once
 
 #include <array>
@@ -25,16 +25,16 @@ struct Domain {
   std::array<double, 4> restitutions{1.0, 1.0, 1.0, 1.0};  // in [0, 1]; only those of walls count
   std::array<double, 4> temperatures{0.0, 0.0, 0.0, 0.0};  // of thermal walls, energy; 0: not thermal
   std::array<SideMotion, 4> motions{};                     // of walls
-  // Where they are, at the time that the box is used for; the edges themselves where nothing moves.
+  // Their places at the time that the box is used for; 0 for sides at rest.
   std::array<SidePlace, 4> places{};
   Shear shear{};  // of a box that is periodic both ways, at the time that the box is used for
-  // What stands in the box (place_obstacles); null where nothing does. Outlives the box.
+  // Obstacles in the box (place_obstacles); null if there are none. They outlive the box.
   const ObstacleCells* obstacles = nullptr;
   bool inner_walls_move = false;  // at least one of them
-  BoxTime clock{};                // where those are
+  BoxTime clock{};                // their time
 
   SideKind side(Side s) const { return sides[static_cast<std::size_t>(s)]; }
-  // Of a wall: speed away from it over speed towards it. Elastic whatever e is in docs/original.md.
+  // Of a wall: speed away from it over speed towards it. (Walls of docs/original.md are always elastic.)
   double restitution(Side s) const { return restitutions[static_cast<std::size_t>(s)]; }
   // A thermal wall reflects with Maxwell's flux distribution (core/physics/thermal_side.hpp).
   double temperature(Side s) const { return temperatures[static_cast<std::size_t>(s)]; }
@@ -49,17 +49,17 @@ struct Domain {
   // A side or an inner wall.
   bool has_moving_wall() const { return has_moving_side() || inner_walls_move; }
   const SidePlace& place(Side s) const { return places[static_cast<std::size_t>(s)]; }
-  // The same after time t >= 0 more.
+  // Its place a time t >= 0 later.
   SidePlace place_after(Side s, double t) const {
     const SideMotion& motion = motions[static_cast<std::size_t>(s)];
     return motion.kind == SideMotion::Kind::sine ? motion.swung(place(s), t) : place(s).after(t);
   }
-  // Walls that move go to where they are at time t.
+  // Sets moving walls to their places at time t.
   void move_walls(double t) {
     clock = {t, t};
     for (std::size_t s = 0; s < motions.size(); ++s) places[s] = motions[s].at(t);
   }
-  // To where they are at time `to`, with the mean speed of the time since `from`: time stepping sees no other.
+  // Sets them to their places at time `to`, with their mean speed since `from`, as time stepping needs it.
   void step_walls(double from, double to) {
     clock = {from, to};
     for (std::size_t s = 0; s < motions.size(); ++s) {
@@ -68,7 +68,7 @@ struct Domain {
       places[s] = {inset, (inset - motions[s].at(from).inset) / (to - from), 0.0};
     }
   }
-  // The images above go to where they are at time t.
+  // Sets the images above a sheared box to their places at time t.
   void move_images(double t) { shear.offset = shear.offset_at(t, width); }
   // May a collision with a wall lose energy?
   bool walls_dissipate() const {
@@ -87,7 +87,7 @@ struct Domain {
   }
 };
 
-// The box at time t, when its moving walls, or the images of a sheared one, are where they are then.
+// The box with its moving walls and the images of a sheared box at their places at time t.
 inline Domain box_at(Domain box, double t) {
   if (box.has_moving_wall()) box.move_walls(t);
   if (box.shear.acts()) box.move_images(t);
@@ -112,14 +112,14 @@ inline double nearest_image(double d, double period) {
   return d;
 }
 
-// How many boxes above the nearest image is, in a sheared box: -1, 0 or 1. dy: as in nearest_image.
+// The row of the nearest image in a sheared box: boxes above the box itself, -1, 0 or 1. dy: as d in nearest_image.
 inline int rows_to_nearest(double dy, const Domain& box) {
   const double half = 0.5 * box.height;
   return dy > half ? -1 : dy < -half ? 1 : 0;
 }
 
-// The difference of two positions in a sheared box, taken to the image so many boxes above (-1, 0 or 1) that is nearest
-// along x. offset: of the images above. Antisymmetric in d and rows together.
+// The difference of two positions in a sheared box, taken to the nearest image in the row `rows` boxes above (-1, 0 or
+// 1). offset: displacement of the images above; length. Antisymmetric in d and rows together.
 inline Vec2 image_in_row(Vec2 d, int rows, double offset, const Domain& box) {
   if (rows != 0) {
     d.y = rows > 0 ? d.y + box.height : d.y - box.height;
@@ -157,9 +157,8 @@ inline double nearest_distance2(Vec2 d, const Domain& box) {
   return d.x * d.x + d.y * d.y;
 }
 
-// For wrap(), where a disk has been sent further than a period in a step far too long: exact, whatever the distance.
-// Not inline: kernels for a wider instruction set would bring a version of their own that every machine may then be
-// given.
+// wrap() of a disk that a far too long step has sent further than a period: exact at any distance. Not inline: a copy
+// compiled with the kernels for a wider instruction set might otherwise be linked for every machine.
 double wrap_far(double c, double period);
 
 // A coordinate brought back into [0, period).
@@ -175,12 +174,12 @@ double wrap_far(double c, double period);
   return c < period ? c : wrap_far(c, period);
 }
 
-// For wrap_sheared(), likewise: through as many boxes as the place is away.
+// wrap_sheared() of a place that is several boxes away.
 double wrap_sheared_far(double& x, double& y, double offset, const Domain& box);
 
-// A place brought back into a sheared box whose images above are displaced by offset. Returns how many boxes further up
-// it is now, a whole number, -1, 0 or 1 unless a step is far too long: its velocity along x changes by so many jumps of
-// the shear.
+// Brings a place back into a sheared box whose images above are displaced by offset. Returns by how many boxes it has
+// been moved up: a whole number, -1, 0 or 1 unless a step is far too long. The velocity along x changes by that number
+// times the shear's jump.
 inline double wrap_sheared(double& x, double& y, double offset, const Domain& box) {
   double rows = 0.0;
   if (y < -box.height || y >= box.height + box.height) [[unlikely]] {

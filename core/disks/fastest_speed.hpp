@@ -1,4 +1,4 @@
-// How fast the fastest disk is.
+// The speed of the fastest disk.
 #pragma once
 
 #include <algorithm>

@@ -1,12 +1,12 @@
-// The acceleration that all disks have in common.
+// Gravity: the acceleration that all disks share.
 #pragma once
 
 #include <cmath>
 
 namespace carom {
 
-// Gravity (-left, -down), in length / time^2: kept with the signs of a fall to the left and down, so that a component
-// that is 0 changes no bit of what it is taken from, not the sign of a zero either.
+// The vector (-left, -down); length / time^2. Components are stored as those of a fall to the left and down and are
+// subtracted, so that a component 0 changes no bit of a velocity, not even the sign of a zero.
 struct Gravity {
   double left = 0.0;
   double down = 0.0;
@@ -25,12 +25,12 @@ struct Gravity {
   constexpr bool acts() const { return size > 0.0; }
   // Does it change velocities along x?
   constexpr bool is_tilted() const { return tilted; }
-  // Its part against the unit vector (nx, ny): what holds a disk down on a wall whose normal, towards the disk, that
-  // is. Times a mass and a distance, the work of a lift.
+  // Its component against the unit vector (nx, ny). If that is the normal of a wall, towards the disk, this
+  // acceleration presses the disk on the wall; times a mass and a distance it is the work of a lift.
   constexpr double against(double nx, double ny) const { return down * ny + left * nx; }
 
  private:
-  // Exact where one of them is 0; neither overflows nor underflows before the size does.
+  // The length of (a, b): exact if one of them is 0, without overflow or underflow on the way.
   static double size_of(double a, double b) {
     const double larger = a > b ? a : b;
     if (larger == 0.0) return 0.0;

@@ -10,24 +10,24 @@ std::string name_of(const Obstacle& o) {
 
 namespace {
 
-// Cells along a side whose cells are to be about so long.
+// Number of cells along a side, each about `cell` (length) long.
 std::int64_t cells_for(double length, double cell, std::size_t obstacles) {
   const double most = 4.0 * static_cast<double>(obstacles);
   return static_cast<std::int64_t>(std::clamp(std::floor(length / cell), 1.0, most));
 }
 
-// The cells of a few obstacles at rest are as many as those of so many.
+// There are at least as many cells as for this number of obstacles at rest.
 constexpr std::size_t least_at_rest = 128;
-// Likewise of those that move, whose cells are made for each step.
+// The same for moving obstacles, whose cells are made anew for each step.
 constexpr std::size_t least_moving = 16;
-// The cells of how far obstacles are: so many an obstacle, each an eleventh of their mean spacing long; of walls that
-// are long beside that, so many for each of the squares that both their sides go along, such that a ninth of the box is
-// no more than two cells from them; and so many in all at least and at most, as each has one byte.
+// Cells of a Clearance: clearance_cells for each obstacle, so that a cell is an eleventh of their mean spacing long.
+// Long walls need more: with clearance_cells_along times the square of their length (both sides) over the box, a ninth
+// of the box is within two cells of them. The number in all, one byte each, stays between the last two constants.
 constexpr double clearance_cells = 128.0;
 constexpr double clearance_cells_along = 256.0;
 constexpr double least_clearance_cells = 4096.0;
 constexpr double most_clearance_cells = 4194304.0;
-// Those of walls that move in many ways are as many as their other cells.
+// Cells of the Clearance for each wall, where walls move in many ways.
 constexpr std::size_t swept_cells = 2;
 
 std::size_t clearance_cells_for(const std::vector<Clearance::Shape>& shapes, const Domain& box) {
@@ -53,7 +53,7 @@ ObstacleGrid::ObstacleGrid(const std::vector<Extent>& extents, const Domain& box
     const CellAxis::Span columns = x_.span(e.low.x, e.high.x), rows = y_.span(e.low.y, e.high.y);
     reach_.push_back({columns, rows, x_.periods(columns.first), y_.periods(rows.first)});
   }
-  // Counted first, then entered.
+  // Counting sort: entries of each cell are counted first, then stored.
   const auto for_each_entry = [&](auto&& enter) {
     for (std::uint32_t k = 0; k < extents.size(); ++k) {
       for (std::int64_t row = reach_[k].rows.first; row <= reach_[k].rows.last; ++row) {
@@ -119,7 +119,7 @@ void ObstacleCells::find_clearances() {
 
 void ObstacleCells::follow(double from, double to) {
   if (moving_.empty()) return;
-  // No disk is there where a wall goes further than this in a step.
+  // A wall moves further than this in a step only while there are no disks.
   const double longest_way = std::min(box_.width, box_.height);
   std::vector<ObstacleGrid::Extent> swept;
   std::vector<Clearance::Extent> extents;
@@ -129,7 +129,7 @@ void ObstacleCells::follow(double from, double to) {
     const WallMotion::Range range = motion.range(std::max(from, to - longest_way / motion.largest_speed()), to);
     const Vec2 low{o.x + std::min(o.dx, 0.0) + range.low.x, o.y + std::min(o.dy, 0.0) + range.low.y};
     const Vec2 high{o.x + std::max(o.dx, 0.0) + range.high.x, o.y + std::max(o.dy, 0.0) + range.high.y};
-    // A wall that has gone round a periodic box many times is known less exactly.
+    // The place of a wall that has moved by many periods is known less exactly.
     const Vec2 slack{0x1p-48 * (std::abs(low.x) + std::abs(high.x)), 0x1p-48 * (std::abs(low.y) + std::abs(high.y))};
     extents.push_back({{low.x - slack.x, low.y - slack.y}, {high.x + slack.x, high.y + slack.y}});
     swept.push_back({k, extents.back().low, extents.back().high});

@@ -1,4 +1,4 @@
-// The obstacles of a run in cells, so that a disk is tested against those near it alone.
+// The obstacles of a run in cells, so that a disk is tested only against those near it.
 #pragma once
 
 #include <algorithm>
@@ -17,13 +17,13 @@
 
 namespace carom {
 
-// Rectangles that obstacles reach over, in cells: about two cells an obstacle, or two for each of `least`; each lists
-// those that reach into it.
+// A grid of about two cells for each obstacle, or for each of `least`. Each cell lists the obstacles whose bounding
+// rectangles reach into it.
 class ObstacleGrid {
  public:
   struct Extent {
     std::uint32_t obstacle;
-    Vec2 low, high;  // length; beyond periodic sides where it reaches over them
+    Vec2 low, high;  // length; may lie beyond periodic sides
   };
   ObstacleGrid() = default;
   ObstacleGrid(const std::vector<Extent>& extents, const Domain& box, std::size_t least = 1);
@@ -48,7 +48,7 @@ class ObstacleGrid {
           const Reach& reach = reach_[entry.extent];
           const std::int64_t kx = px - reach.period_x - entry.period_x;
           const std::int64_t ky = py - reach.period_y - entry.period_y;
-          // Of the cells that the image and the rectangle share, the first one only.
+          // Only in the first of the cells that the image and the rectangle share.
           if (column != std::max(columns.first, reach.columns.first + kx * x_.cells)) continue;
           if (row != std::max(rows.first, reach.rows.first + ky * y_.cells)) continue;
           found(entry.obstacle, Vec2{static_cast<double>(kx) * x_.length, static_cast<double>(ky) * y_.length});
@@ -60,12 +60,13 @@ class ObstacleGrid {
  private:
   struct Entry {
     std::uint32_t obstacle, extent;
-    // In which the obstacle, where it stands, reaches into the cell; from that of its first cell on.
+    // The period in which the obstacle itself, not an image, reaches into the cell, counted from that of its first
+    // cell.
     std::int32_t period_x, period_y;
   };
   struct Reach {
     CellAxis::Span columns, rows;
-    std::int64_t period_x, period_y;  // of the first cell: walls that move may have gone round very often
+    std::int64_t period_x, period_y;  // of the first cell; large if a moving wall has gone round the box many times
   };
 
   CellAxis x_, y_;
@@ -74,12 +75,12 @@ class ObstacleGrid {
   std::vector<Entry> entries_;
 };
 
-// The cells of obstacles at rest are made once; those of walls that move for each step or window anew, of what they
-// sweep over in it: so a wall is found wherever it can be, and its cells are a function of time alone. How far places
-// are from walls that move alike is known once and for all where these are at rest.
+// The cells of obstacles at rest are made once. Those of moving walls are made anew for each step or window, from the
+// area that the walls sweep over in it: so a wall is found wherever it can be, and its cells depend on the time alone.
+// For walls that move alike, one Clearance is made once, as if at rest, and displaced with them.
 class ObstacleCells {
  public:
-  // motions: by number of a [[walls]] table.
+  // motions: by the number of the [[walls]] table.
   ObstacleCells(const std::vector<Obstacle>& obstacles, std::vector<WallMotion> motions, const Domain& box);
 
   const Obstacle& operator[](std::size_t k) const { return obstacles_[k]; }
@@ -93,40 +94,39 @@ class ObstacleCells {
   // Does any of them take disks away?
   bool has_sinks() const { return has_sinks_; }
 
-  // Of one that moves.
+  // Precondition: o moves.
   const WallMotion& motion_of(const Obstacle& o) const { return motions_[o.id]; }
-  // Walls that move are found at times from one to the other, both included, until the next call; where they go further
-  // than the box is long, as in long steps without disks, in the last part of that time.
+  // Until the next call, moving walls are found at all times in [from, to]. If they move further than the box is long,
+  // as in long steps without disks, only in the last part of that time.
   void follow(double from, double to);
 
-  // As ObstacleGrid::visit. The image of one that moves is displaced by shift from where its motion has brought it,
-  // periodic sides or not.
+  // As ObstacleGrid::visit. For a moving obstacle, shift is counted from its place in unwrapped coordinates.
   template <class Found>
   void visit(Vec2 low, Vec2 high, Found&& found) const {
     at_rest_.visit(low, high, found);
     if (!moving_.empty()) [[unlikely]]
       swept_.visit(low, high, found);
   }
-  // As in Clearance: no obstacle reaches into the rectangle.
+  // As Clearance::is_clear.
   bool is_clear(Vec2 low, Vec2 high) const {
     return std::all_of(around_.begin(), around_.end(),
                        [&](const Around& a) { return a.clearance.is_clear(low, high); });
   }
-  // All obstacles are so far from this place at least; length, negative where it is not known.
+  // All obstacles are at least this far from the place; length. Negative where nothing is known.
   double clearance(Vec2 place) const {
     double least = HUGE_VAL;
     for (const Around& a : around_) least = std::min(least, a.clearance.at(place));
     return least;
   }
-  // What clearance() reads is in so many maps: one of the obstacles at rest, others of those that move.
+  // The number of maps that clearance() reads: one for the obstacles at rest, others for moving ones.
   std::size_t clearances() const { return around_.size(); }
   Clearance::Cells clearance_cells(std::size_t k) const { return around_[k].clearance.cells(); }
-  // So many at most: walls that move in more than so many ways have one map for all, which is made anew each time.
+  // Walls that move in more than most_motions ways share one map, which is made anew for each step or window.
   static constexpr std::size_t most_motions = 4;
   static constexpr std::size_t most_clearances = 1 + most_motions;
 
  private:
-  // Of obstacles that move alike, as this motion says, or are at rest.
+  // The map of obstacles that all have this motion, or are all at rest.
   struct Around {
     WallMotion motion;
     Clearance clearance;
@@ -136,19 +136,20 @@ class ObstacleCells {
   std::vector<Obstacle> obstacles_;
   std::vector<WallMotion> motions_;
   std::vector<std::uint32_t> moving_;  // obstacles that move
-  Domain box_;                         // its size and its periodic sides
+  Domain box_;                         // only its size and its periodic sides are used
   bool has_sinks_ = false;
   ObstacleGrid at_rest_, swept_;
-  std::vector<Around> around_;  // where walls move in too many ways, the last one is of what all of them sweep over
+  std::vector<Around>
+      around_;  // if moves_in_many_ways_, the last one is that of the areas that moving walls sweep over
   bool moves_in_many_ways_ = false;
 };
 
-// The cells for a run's obstacles, where they are at the time of the box, and box.obstacles set to them; null where
-// there are none. motions: by number of a [[walls]] table; without them all stand where they are at time 0.
+// Makes the cells of a run's obstacles at the time of the box, and sets box.obstacles to them; null if there are none.
+// motions: by the number of the [[walls]] table; without them all obstacles rest at their places of time 0.
 std::unique_ptr<ObstacleCells> place_obstacles(const std::vector<Obstacle>& obstacles, Domain& box,
                                                std::vector<WallMotion> motions = {});
 
-// One that moves where it is at time t, in the box across whose periodic sides it has gone; it does not move any more.
+// A moving obstacle at its place at time t, wrapped into a periodic box, as an obstacle at rest.
 inline Obstacle at_time(Obstacle o, const std::vector<WallMotion>& motions, double t, const Domain& box) {
   if (!o.moves) return o;
   const Vec2 shift = motions[o.id].at({t, t}).shift;
@@ -160,7 +161,7 @@ inline Obstacle at_time(Obstacle o, const std::vector<WallMotion>& motions, doub
   return o;
 }
 
-// Walls that move go to where they are at the end of a step.
+// Sets moving sides and inner walls to their places at the end of a step.
 inline void step_walls(Domain& box, ObstacleCells* obstacles, double from, double to) {
   box.step_walls(from, to);
   if (obstacles != nullptr) obstacles->follow(from, to);

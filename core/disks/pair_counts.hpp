@@ -9,11 +9,11 @@
 namespace carom {
 
 struct PairCounts {
-  Count centres = 0;          // disks whose surroundings were counted
+  Count centres = 0;          // disks around which pairs were counted
   std::vector<Count> counts;  // ordered pairs from them, by bin
 };
 
-// How alike the hexagons around the two of a pair are turned.
+// Correlation of the bond orientation psi6 of the two disks of a pair.
 struct BondPairs {
   std::vector<Count> counts;           // as PairCounts
   std::vector<FixedPointSum> product;  // of the same pairs: Re(psi6 of one, conjugate, times psi6 of the other)

@@ -1,4 +1,4 @@
-// What rounding may do to a place.
+// A tolerance for coordinates.
 #pragma once
 
 #include <cmath>
@@ -7,8 +7,8 @@
 
 namespace carom {
 
-// Rounding of decimals may put a disk that touches something this far beyond it: 1e-12 of its radius, and four units
-// in the last place of the box, whose longer side this is. Lengths.
+// Rounding of decimals may put a touching disk this far beyond contact: 1e-12 of its radius, plus four units in the
+// last place of `length`, the longer side of the box. All are lengths.
 inline double place_slack(double radius, double length) {
   return 1e-12 * radius + 0x1p-50 * length;
 }

@@ -1,4 +1,4 @@
-// The restitution of two disks where one number for all does not do: by pairs of groups, or by the speed of approach.
+// The restitution of two disks if it depends on their groups or on the speed of approach.
 #pragma once
 
 #include <algorithm>
@@ -9,14 +9,16 @@
 
 namespace carom {
 
-// Of two disks: a number, or e(v) = max(least, 1 - a v^(1/5)), v the speed of approach along the line of centres.
+// Restitution of two disks: a number, or e(v) = max(least, 1 - a v^(1/5)), v the speed of approach along the line of
+// centres.
 struct Restitution {
   double least = 1.0;      // in [0, 1]; the number itself where viscosity is 0
   double viscosity = 0.0;  // a; (time / length)^(1/5)
   bool operator==(const Restitution&) const = default;
 };
 
-// Groups are numbered as their [[disks]] blocks, from 0; the number after the last is that of all disks from sources.
+// The restitution of two groups. Groups are numbered as their [[disks]] blocks, from 0; all disks from sources have the
+// number after the last.
 struct GroupPair {
   DiskId first = 0, second = 0;  // first <= second
   Restitution restitution;
@@ -26,16 +28,16 @@ inline bool operator<(const GroupPair& a, const GroupPair& b) {
   return std::pair(a.first, a.second) < std::pair(b.first, b.second);
 }
 
-// What there is beside the one number that a scene gives.
+// What a scene gives in addition to one number for all pairs.
 struct RestitutionLaw {
   double viscosity = 0.0;        // of the pairs that are not in `pairs`
   std::vector<DiskId> ends;      // the id after the last of each group, ascending; only beside pairs
   std::vector<GroupPair> pairs;  // in order, no two of the same groups
 
-  // Does the number say it all?
+  // Is one number enough?
   bool is_empty() const { return viscosity == 0.0 && pairs.empty(); }
 
-  // Of the disks with these ids; number: the scene's.
+  // Restitution of the disks with these ids. number: the scene's number for all other pairs.
   Restitution of(double number, DiskId a, DiskId b) const {
     if (pairs.empty()) return {number, viscosity};
     const auto group = [&](DiskId id) {

@@ -1,4 +1,4 @@
-// How rough the surfaces of disks and walls are: what a contact does along them, where it does anything.
+// Roughness of the surfaces of disks and walls: the parameters of friction in a collision.
 #pragma once
 
 #include <cmath>
@@ -6,8 +6,8 @@
 
 namespace carom {
 
-// Of one kind of contact (Walton 1993): sticking contacts multiply the velocity of one surface along the other by
-// -restitution; contacts whose impulse would be more than friction times the normal one slide instead.
+// For one kind of contact (Walton 1993): a sticking contact multiplies the slip velocity by -restitution; a contact
+// whose tangential impulse would exceed friction times the normal one slides instead.
 struct Roughness {
   double restitution = -1.0;   // tangential, in [-1, 1]; -1: smooth, 1: perfectly rough
   double friction = HUGE_VAL;  // Coulomb's, >= 0; infinite: contacts never slide
@@ -18,7 +18,7 @@ struct Roughness {
   bool dissipates() const { return acts() && (restitution < 1.0 || friction < HUGE_VAL); }
 };
 
-// Whose surfaces touch: two disks', fixed ones included, or those of a disk and of a side or an inner wall.
+// The kind of contact: two disks (one may be fixed), or a disk and a side or an inner wall.
 enum class Touching : std::uint8_t { disks, wall };
 
 // The surfaces of a scene.

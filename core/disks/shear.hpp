@@ -13,15 +13,15 @@ struct Shear {
   double jump = 0.0;    // velocity of the images above, rate times the height of the box; length / time
   double offset = 0.0;  // displacement of the images above at the time that the box is used for; at most half a width
 
-  // As whole numbers: one comparison less than of doubles. The rate is no zero with a sign.
+  // Compares bits, which is one comparison less than with doubles. The rate is never -0.
   bool acts() const { return std::bit_cast<std::uint64_t>(rate) != 0; }
 
-  // The offset at time t, from the time alone. remainder() is exact in IEEE arithmetic: the offset is as smooth in time
-  // as t itself, however many widths the images above have gone.
+  // The offset at time t. remainder() is exact in IEEE arithmetic, so the offset stays accurate however many widths the
+  // images have moved.
   double offset_at(double t, double width) const { return jump * std::remainder(t, width / std::abs(jump)); }
 
-  // A disk of this mass becomes its image so many boxes above, a whole number. Returns the energy that it gains: the
-  // work of the shear.
+  // Replaces a disk of this mass by its image `rows` boxes above (a whole number): changes its vx, and returns the
+  // energy that it gains, the work of the shear.
   double jump_rows(double mass, double& vx, double rows) const {
     if (rows == 0.0) return 0.0;
     const double change = rows * jump;

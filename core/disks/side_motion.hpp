@@ -1,4 +1,4 @@
-// How a side of the box moves, as time goes on: by itself, whatever meets it.
+// The prescribed motion of a side of the box.
 #pragma once
 
 #include <cmath>
@@ -8,20 +8,20 @@
 
 namespace carom {
 
-// Where a side stands, how fast it moves and how its speed changes, all towards the inside of the box.
+// Place, speed and acceleration of a side, all towards the inside of the box.
 struct SidePlace {
   double inset = 0.0;         // from the edge of the box; length, >= 0 but for rounding
   double speed = 0.0;         // length / time
   double acceleration = 0.0;  // length / time^2
   bool operator==(const SidePlace&) const = default;
 
-  // After so much more time.
+  // The place a time t later, at constant acceleration.
   SidePlace after(double t) const {
     return {inset + (speed * t + 0.5 * acceleration * (t * t)), speed + acceleration * t, acceleration};
   }
 };
 
-// All towards the inside of the box.
+// Lengths and speeds count towards the inside of the box.
 struct SideMotion {
   enum class Kind : std::uint8_t {
     none,
@@ -32,7 +32,7 @@ struct SideMotion {
   Kind kind = Kind::none;
   double inset = 0.0;      // at time 0, or at the middle of the vibration; length, >= 0 but for rounding
   double speed = 0.0;      // of a steady motion; length / time
-  double amplitude = 0.0;  // of a vibration, which begins in this direction; length, < 0: outwards
+  double amplitude = 0.0;  // of a vibration; length. Its sign is the direction in which it begins, < 0: outwards
   double period = 0.0;     // time
   double furthest = 0.0;   // largest inset until the run's end; length
   bool operator==(const SideMotion&) const = default;
@@ -43,7 +43,7 @@ struct SideMotion {
 
   double angular_frequency() const { return 6.28318530717958647693 / period; }
 
-  // The number of the parabola that time t >= 0 lies in; at the end of one, the next. Other motions are one piece.
+  // The number of the parabola at time t >= 0; where two of them meet, the later one. Other motions have one piece.
   double piece(double t) const {
     if (kind != Kind::parabolas) return 0.0;
     double k = std::floor(t / half());
@@ -51,10 +51,10 @@ struct SideMotion {
     while ((k + 1.0) * half() <= t) k += 1.0;
     return k;
   }
-  // When the piece of time t ends.
+  // The end of the piece at time t; time.
   double piece_end(double t) const { return kind == Kind::parabolas ? (piece(t) + 1.0) * half() : HUGE_VAL; }
 
-  // Does a parabola begin at time t, where a window had to end?
+  // Does a parabola begin at time t? Windows end there.
   bool turns_at(double t) const { return kind == Kind::parabolas && piece(t) * half() == t; }
 
   SidePlace at(double t) const {
@@ -63,7 +63,8 @@ struct SideMotion {
     if (kind == Kind::sine) return swung(sine_in_period(t, period), 0.0, amplitude * angular_frequency());
     const double k = piece(t);
     const double since = t - k * half();
-    // a t (h - t) 4 / h^2, which is the amplitude at the middle of the half period h; every other one is turned over.
+    // The parabola 4 a t (h - t) / h^2, which reaches the amplitude a in the middle of the half period h; every second
+    // one has the opposite sign.
     const bool turned = k - 2.0 * std::floor(0.5 * k) != 0.0;
     const double curvature = (turned ? -4.0 : 4.0) * amplitude / (half() * half());
     return {inset + curvature * (since * (half() - since)), curvature * (half() - 2.0 * since), -2.0 * curvature};
@@ -74,18 +75,18 @@ struct SideMotion {
     const double middle = 0.5 * (from + to);
     if (!vibrates() || !(from < to)) return at(middle).inset;
     if (kind == Kind::parabolas) return inset + (way_of_parabolas(to) - way_of_parabolas(from)) / (to - from);
-    // The integral of sin(w t) over 2 d about the middle is 2 sin(w middle) sin(w d) / w, d half the time.
+    // The integral of sin(w t) over a time 2 d about `middle` is 2 sin(w middle) sin(w d) / w.
     const double half_angle = 0.5 * angular_frequency() * (to - from);
     const double waves = sine_in_period(middle, period).sine * sine_in_period(to - from, 2.0 * period).sine;
     return inset + amplitude * waves / half_angle;
   }
 
-  // Where a sine that is at `from` has come to after time t >= 0.
+  // The place of a sine a time t >= 0 after the place `from`.
   SidePlace swung(const SidePlace& from, double t) const {
     return swung(sine_in_period(t, period), from.inset - inset, from.speed);
   }
 
-  // The furthest that the side comes into the box until t_end, and the least.
+  // The largest and the least inset until t_end; length.
   double largest_inset(double t_end) const {
     return vibrates() ? inset + std::abs(amplitude) : std::fmax(inset, inset + speed * t_end);
   }
@@ -106,7 +107,8 @@ struct SideMotion {
   double first_time_beyond(double limit, double t_end) const {
     if (kind == Kind::none) return HUGE_VAL;
     if (at(0.0).inset > limit) return 0.0;
-    // It comes nearer all the time from `before` to `after`, and a vibration is not as far in again before.
+    // From `before` to `after` the side moves inwards all the time, and a vibration reaches its furthest first at
+    // `after`.
     double before = vibrates() && amplitude < 0.0 ? half() : 0.0;
     double after = vibrates() ? before + 0.5 * half() : t_end;
     if (!(at(after).inset > limit)) return HUGE_VAL;
@@ -117,7 +119,8 @@ struct SideMotion {
   }
 
  private:
-  // The integral from 0 to t of how far parabolas take it from its middle; length time. Two halves of a period cancel.
+  // The integral of the displacement from the middle over the time from 0 to t, for parabolas; length time. The two
+  // halves of a period cancel.
   double way_of_parabolas(double t) const {
     const double k = piece(t);
     const double since = t - k * half();
@@ -126,7 +129,7 @@ struct SideMotion {
     return turned ? 2.0 / 3.0 * amplitude * half() - of_piece : of_piece;
   }
 
-  // A sine that was `away` from its middle, at speed `v`, after an angle.
+  // A sine that was `away` from its middle and had speed `v`, after this phase angle.
   SidePlace swung(const SineCosine& angle, double away, double v) const {
     const double w = angular_frequency();
     const double there = away * angle.cosine + v / w * angle.sine;

@@ -1,5 +1,5 @@
-// How many disks each sink took. A scene's sinks have numbers: the four sides (order of Side), then its [[walls]]
-// tables, those that are no sinks among them.
+// The number of disks that each sink took. Sinks are numbered: first the four sides (order of Side), then all [[walls]]
+// tables of the scene, whether they are sinks or not.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ inline SinkNumber sink_number(Side side) {
   return static_cast<SinkNumber>(side);
 }
 
-// Of the [[walls]] table of that place in the scene, and of a piece of its wall.
+// The number of a [[walls]] table, by its position in the scene, and of a segment of its wall.
 inline SinkNumber sink_number_of_table(std::size_t table) {
   return static_cast<SinkNumber>(all_sides.size() + table);
 }
@@ -27,10 +27,10 @@ inline SinkNumber sink_number(const Obstacle& piece) {
   return sink_number_of_table(piece.id);
 }
 
-// By number; those behind its end took none.
+// By sink number; sinks beyond the end of the list took none.
 using SinkCounts = std::vector<Count>;
 
-// A sink took so many more.
+// Adds to the count of a sink.
 inline void count_taken(SinkCounts& counts, SinkNumber sink, Count disks = 1) {
   if (counts.size() <= sink) counts.resize(std::size_t{sink} + 1);
   counts[sink] += disks;

@@ -13,7 +13,8 @@ namespace carom {
 // disks of a mixed hash of each, so it does not depend on storage order and can be taken in parallel.
 std::uint64_t state_hash(const Disks& disks);
 
-// The same in two steps, where the disks lie apart: the hashes of each part's disks, added up, then all parts' sums.
+// The same in two steps, for disks in several parts: first the sum of hashes of each part, then the hash of all disks
+// from the sum of those sums.
 std::uint64_t sum_of_hashes(const Disks& part);
 std::uint64_t state_hash(std::size_t disks, std::uint64_t sum);
 

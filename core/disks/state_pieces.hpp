@@ -1,4 +1,4 @@
-// A state that is handed out in pieces, for a program that must not have all disks at once: one rank of several.
+// A state in pieces: for one rank of several, which must not hold all disks.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ inline constexpr std::array all_state_lists{
     StateList::radius,      StateList::mass, StateList::spin, StateList::loads, StateList::last_contact,
     StateList::thermal_hits};
 
-// use(list) with the vector of that name.
+// Calls use() with the vector of that name.
 template <class Use>
 decltype(auto) with_list(const State& state, StateList list, Use&& use) {
   const Disks& d = state.disks;
@@ -49,7 +49,7 @@ decltype(auto) with_list(const State& state, StateList list, Use&& use) {
   return use(state.thermal_hits);
 }
 
-// Of an entry, in memory.
+// Bytes of an entry in memory.
 inline std::size_t entry_bytes(StateList list) {
   return with_list(State{}, list, [](const auto& values) { return sizeof(values[0]); });
 }
@@ -63,18 +63,18 @@ class StatePieces {
   StatePieces& operator=(const StatePieces&) = delete;
   virtual ~StatePieces() = default;
 
-  // All of the state but its lists, which may be those of a part.
+  // The state, whose lists may be those of a part of the disks only.
   virtual const State& part() const = 0;
 
   // How many entries a list has.
   virtual Count entries(StateList list) const = 0;
 
-  // Calls use() for the entries of a list one after another, as they lie in memory, many at a time. Disks have the same
-  // order in each of their lists. What use() throws ends it, and nothing else is lost by that.
+  // Calls use() with the bytes of a list's entries in order, many at a time. All lists have the disks in the same
+  // order. An exception thrown by use() ends the visit and does no harm.
   virtual void visit(StateList list, const Use& use) const = 0;
 };
 
-// A state that is here as a whole; it outlives this.
+// A state that is all in this program. It must outlive this object.
 class WholeState final : public StatePieces {
  public:
   explicit WholeState(const State& state) : state_(state) {}

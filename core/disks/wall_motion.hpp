@@ -1,4 +1,4 @@
-// How an inner wall moves, as time goes on: along a straight line, by itself, whatever meets it.
+// The prescribed motion of an inner wall, along a straight line.
 #pragma once
 
 #include <algorithm>
@@ -9,23 +9,23 @@
 
 namespace carom {
 
-// How far an inner wall is from where the scene has it, how fast it moves and how its velocity changes.
+// Displacement of an inner wall from its place in the scene, its velocity and acceleration.
 struct WallPlace {
   Vec2 shift;         // length
   Vec2 velocity;      // length / time
   Vec2 acceleration;  // length / time^2
 };
 
-// The time that a box is used for, as its inner walls need it. from < to: a step, at its end; time stepping sees no
-// more than the mean velocity.
+// The time that a box is used for. from < to: the end of a step, where time stepping uses mean velocities over it; from
+// == to: that moment.
 struct BoxTime {
   double from = 0.0, to = 0.0;
   bool operator==(const BoxTime&) const = default;
 };
 
 struct WallMotion {
-  SideMotion pace{};  // of a wall whose velocity, or amplitude, is 1
-  Vec2 along{};       // velocity, length / time; or amplitude of a vibration, which begins in this direction; length
+  SideMotion pace{};  // of a wall of unit velocity or amplitude
+  Vec2 along{};  // velocity, length / time; or amplitude of a vibration, in the direction in which it begins, length
   bool operator==(const WallMotion&) const = default;
 
   bool moves() const { return pace.moves(); }
@@ -34,8 +34,7 @@ struct WallMotion {
   double largest_acceleration() const { return size() * pace.largest_acceleration(); }
   double size() const { return std::sqrt(along.x * along.x + along.y * along.y); }
 
-  // Of a wall whose velocity, or amplitude, is 1: at the clock's time, and so much later (time; < 0 within a step
-  // only).
+  // For a wall of unit velocity or amplitude: `later` (time; < 0 within a step only) after the clock's time.
   SidePlace pace_at(const BoxTime& clock, double later) const {
     const SidePlace now = pace.at(clock.to);
     if (clock.from < clock.to) {
