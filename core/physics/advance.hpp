@@ -10,8 +10,8 @@
 
 namespace carom {
 
-// (14), (15); with gravity (20), (21). Exact for any t, negative too: drift by t and by -t cancel to rounding. + 0.0: 0
-// t is -0 where t < 0, and to take that away would make +0 of a velocity of -0.
+// (14), (15); with gravity (20), (21). Exact for any t, negative too: drift by t and by -t cancel to rounding. The +
+// 0.0 keeps the sign of a zero velocity: where t < 0 and g.down is 0, the product is -0, and -0 - (-0) is +0.
 template <bool gravity>
 inline void drift(double& x, double& y, double& vx, double& vy, double t, const Gravity& g) {
   if constexpr (gravity) {
@@ -29,14 +29,14 @@ inline void drift(double& x, double& y, double& vx, double& vy, double t, const 
   }
 }
 
-// A centre brought back into the box across periodic sides; it has left by less than a period.
+// Brings a centre back into the box across periodic sides. Precondition: it lies outside by less than a period.
 template <bool periodic_x, bool periodic_y>
 inline void wrap(double& x, double& y, const Domain& box) {
   if constexpr (periodic_x) x = wrap(x, box.width);
   if constexpr (periodic_y) y = wrap(y, box.height);
 }
 
-// The same for a box whose sides are not known by type.
+// The same for a box whose periodic sides are known only at run time.
 inline void wrap(double& x, double& y, const Domain& box) {
   if (box.periodic_x()) x = wrap(x, box.width);
   if (box.periodic_y()) y = wrap(y, box.height);

@@ -1,4 +1,4 @@
-// A disk and one side of the box: how far beyond, since when, and what a wall does.
+// A disk and one side of the box: how far the disk reaches beyond it, since when, and how a wall reflects it.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ inline double reach_beyond(Side side, double x, double y, double r, const Domain
   }
 }
 
-// The same of a wall that may move: beyond where it is.
+// How far the disk's edge reaches beyond a wall that may move; length.
 inline double reach_beyond_wall(Side side, double x, double y, double r, const Domain& box) {
   return reach_beyond(side, x, y, r, box) + box.place(side).inset;
 }
@@ -56,10 +56,9 @@ inline double outward_acceleration(Side side, const Gravity& g) {
   }
 }
 
-// Time since the disk touched the wall it now reaches beyond, on its present path; where gravity accelerates it across
-// the wall, the smaller root of a quadratic, beyond = speed t - a t^2 / 2, in the form that does not cancel.
-// Infinity when this path never was inside (a disk pressed into the floor by others).
-// Preconditions: beyond >= 0, speed > 0.
+// Time since the disk, on its present path, touched the wall that it now reaches beyond. Where gravity acts across the
+// wall this is the smaller root of beyond = speed t - a t^2 / 2, in the form that does not cancel. Infinity if the path
+// never was inside (a disk pressed into the floor by others). Preconditions: beyond >= 0, speed > 0.
 inline double time_since_wall(Side side, double beyond, double speed, const Gravity& g) {
   const double acceleration = outward_acceleration(side, g);
   if (acceleration == 0.0) return beyond / speed;
@@ -68,30 +67,31 @@ inline double time_since_wall(Side side, double beyond, double speed, const Grav
   return 2.0 * beyond / (speed + std::sqrt(discriminant));
 }
 
-// What rounding may add to, or take from, the time since a contact, as a share of the step. Disks are often left just
-// touching at the end of a step: pushed apart, or put back to a wall. The contact of those that then come on begins
-// with the next step, and rounding must not say whether before it or after.
+// Tolerance of the time since a contact, as a share of the step. Steps often leave disks just touching: pushed apart,
+// or put back to a wall. If such disks approach, their contact begins exactly with the next step, and rounding must not
+// decide whether it began before the step or in it.
 inline constexpr double start_of_step = 1e-6;
 
-// Did a contact, `ago` before the end of a step of length dt, begin within it?
+// Did a contact that began `ago` before the end of a step of length dt begin within the step?
 inline bool began_within(double ago, double dt) {
   return ago <= dt * (1.0 + start_of_step);
 }
 
-// The time since a contact as contacts are ordered by it: those that began with the step or before it all have dt.
+// The time since a contact by which contacts are ordered: dt for all that began with the step or before it.
 inline double time_within(double ago, double dt) {
   return ago < dt * (1.0 - start_of_step) ? ago : dt;
 }
 
-// Was a disk that reaches `beyond` past a wall, or an obstacle, beyond it before the step began, so that it is met
-// late? Not where gravity presses it there (ago is infinite), nor by rounding of a disk that just touched.
+// Did a disk that reaches `beyond` past a wall or an obstacle do so before the step began, so that its collision comes
+// late? False for a disk that gravity presses there (ago is infinite), and where only rounding says so of a disk that
+// just touched.
 inline bool is_met_late(double ago, double beyond, double speed, double dt) {
   constexpr double more_than_rounding = 1.01;
   return ago > dt && beyond > more_than_rounding * speed * dt;
 }
 
-// Speed towards the side that the disk had, or by its energy would have, at the wall itself: what lifting it back from
-// `beyond` costs under gravity is taken from its motion. 0 where its energy does not reach that far.
+// The speed towards the side that the disk has at the wall itself, by conservation of energy: lifting it back from
+// `beyond` against gravity costs kinetic energy. 0 where its energy does not suffice.
 inline double speed_at_wall(Side side, double beyond, double speed, const Gravity& g) {
   const double acceleration = outward_acceleration(side, g);
   if (acceleration == 0.0) return speed;
@@ -121,7 +121,8 @@ inline void bounce(Side side, double restitution, double& vx, double& vy) {
   }
 }
 
-// Coordinate of a centre that just touches the side: the exact place after a correction, free of rounding drift.
+// Coordinate of the centre of a disk that just touches the side. To place disks by it, instead of moving them by a
+// difference, lets no rounding accumulate.
 inline double touching_coordinate(Side side, double r, const Domain& box) {
   const double inset = box.place(side).inset;
   switch (side) {

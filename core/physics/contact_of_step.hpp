@@ -17,9 +17,9 @@
 
 namespace carom {
 
-// How disk j lies and moves as disk i sees it, nearest image. ago: time before the one that the box is used for; what a
-// sheared one needs to know. Precondition, as of all here and in resolve.hpp that take a view: it is a sheared one if
-// the box is.
+// Position and velocity of disk j relative to disk i, nearest image. ago: how long before the time of the box the
+// positions are meant; matters in a sheared box only. Precondition, here and in resolve.hpp wherever a View is taken:
+// View::is_sheared if the box is sheared.
 template <class View>
 Relative relative(const View& d, std::uint32_t i, std::uint32_t j, const Domain& box,
                   [[maybe_unused]] double ago = 0.0) {
@@ -55,7 +55,7 @@ ContactEvent pair_event(const View& d, const StepRules& rules, std::uint32_t i, 
   return {ago, d.id[i], d.id[j], i, j};
 }
 
-// Likewise for a disk that reaches `beyond` >= 0 past a wall.
+// The contact event of a disk that reaches `beyond` >= 0 past a wall.
 template <class View>
 ContactEvent wall_event(const View& d, const StepRules& rules, std::uint32_t i, Side side, double beyond) {
   const double speed = approach_speed(side, d.vx[i], d.vy[i], rules.box.place(side));
@@ -64,7 +64,7 @@ ContactEvent wall_event(const View& d, const StepRules& rules, std::uint32_t i, 
   return {ago, d.id[i], wall_partner(side), i, 0};
 }
 
-// Likewise for an obstacle.
+// The contact event of disk i and obstacle k.
 template <class View>
 ContactEvent obstacle_event(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t k,
                             const ObstacleGap& gap) {
@@ -78,7 +78,7 @@ ContactEvent obstacle_event(const View& d, const StepRules& rules, std::uint32_t
   return {ago, d.id[i], obstacle_partner(k), i, 0};
 }
 
-// How disk i lies to the obstacle of a contact.
+// The gap between disk i and the obstacle of a contact.
 template <class View>
 ObstacleGap gap_to(const View& d, const Domain& box, std::uint32_t i, DiskId partner) {
   return gap_to((*box.obstacles)[obstacle_of(partner)], d.x[i], d.y[i], d.radius(i), box);
@@ -91,7 +91,8 @@ double reach_beyond_wall(const View& d, const Domain& box, std::uint32_t i, Disk
   return reach_beyond_wall(wall_side(partner), d.x[i], d.y[i], d.radius(i), box);
 }
 
-// Which sink what stands for a wall in a contact is; no_sink, if it takes no disks away.
+// The number of the sink that a contact's partner is; no_sink if it takes no disks away. partner: a wall's or an
+// obstacle's.
 inline SinkNumber sink_of(const Domain& box, DiskId partner) {
   if (is_obstacle(partner)) {
     const Obstacle& o = (*box.obstacles)[obstacle_of(partner)];
@@ -101,9 +102,9 @@ inline SinkNumber sink_of(const Domain& box, DiskId partner) {
   return box.side(side) == SideKind::sink ? sink_number(side) : no_sink;
 }
 
-// A sink that lies along a wall, or before it, is an opening in it: disk i meets walls only that it lies in by more
-// than this, the depth by which it lies in an inner sink, with what rounding may add; length. Negative: it touches
-// none.
+// An inner sink that lies along a wall, or before it, is an opening in that wall. This is the depth by which disk i
+// lies in an inner sink, plus rounding (length; negative if it touches none); the disk collides only with walls in
+// which it lies deeper.
 template <class View>
 double depth_of_opening(const View& d, const Domain& box, std::uint32_t i) {
   double depth = -1.0;
@@ -115,8 +116,8 @@ double depth_of_opening(const View& d, const Domain& box, std::uint32_t i) {
   return depth + place_slack(box, d.radius(i));
 }
 
-// Calls found(event) for each wall side and obstacle that disk i reaches beyond or touches, but for those where an
-// inner sink is an opening, and once where inner walls join.
+// Calls found(event) for each wall side and solid obstacle that disk i touches or reaches beyond; not where an inner
+// sink is an opening in it, and only once where inner walls join.
 template <class View, class Found>
 void for_each_wall_contact(const View& d, const StepRules& rules, std::uint32_t i, Found&& found) {
   const double open = depth_of_opening(d, rules.box, i);

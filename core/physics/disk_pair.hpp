@@ -22,8 +22,9 @@ struct Relative {
   double speed2() const { return dvx * dvx + dvy * dvy; }
 };
 
-// The same in a sheared box, where an image above moves at the shear's jump. raw: without images. offset: of the images
-// above. rows: which image (image_in_row).
+// Of the images of the second disk in a sheared box, that in the row `rows` (image_in_row); each row above moves faster
+// by the shear's jump. raw: the relative position and velocity in the box itself. offset: displacement of the row
+// above; length.
 inline Relative to_row(const Relative& raw, int rows, double offset, const Domain& box) {
   const Vec2 apart = image_in_row({raw.dx, raw.dy}, rows, offset, box);
   return {apart.x, apart.y, raw.dvx + rows * box.shear.jump, raw.dvy};
@@ -63,10 +64,10 @@ inline double reduced_mass(double m1, double m2) {
 
 // The collision rule (23) for any masses and restitution, along the line of centres only: the normal relative velocity
 // is multiplied by -e, the tangential one and the total momentum stay. With e = 1 it is the right elastic rule for
-// unequal masses, which the swap (16) is not (F4). No square root: n n = dr dr / dr^2.
-// Precondition: distance2() > 0. Returns the change of the squared-distance rate, (1 + e) |dr.dv|; times the reduced
-// mass it is |impulse| x distance, the virial of the collision. Inlined always: with a call, and its arguments in
-// memory, a collision of the exact engine costs 50 instructions more.
+// unequal masses, which the swap (16) is not (F4). No square root: n n = dr dr / dr^2. Precondition: distance2() > 0.
+// Returns by how much dr.dv has grown, (1 + e) |dr.dv|; times the reduced mass it is |impulse| x distance, the virial
+// of the collision. Always inlined: a call, with its arguments in memory, costs the exact engine 50 instructions more
+// in each collision.
 [[gnu::always_inline]] inline double collide(const Relative& r, Shares share, double restitution, double& vx1,
                                              double& vy1, double& vx2, double& vy2) {
   const double change = (1.0 + restitution) * r.approach();

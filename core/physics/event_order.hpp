@@ -3,7 +3,7 @@
 
 namespace carom {
 
-// a before b by the smaller id, then by the larger. For any records with id1 <= id2, where id2 may be a wall's partner.
+// Order by the smaller id, then by the larger. For any records with id1 <= id2; id2 may be a wall_partner.
 struct IdsOrder {
   template <class A, class B>
   constexpr bool operator()(const A& a, const B& b) const {

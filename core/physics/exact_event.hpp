@@ -1,4 +1,5 @@
-// What happens at an event of the exact method: two disks collide, a disk meets a side. Both engines call this.
+// What happens at an event of the exact method: two disks collide, or a disk reaches a side or an obstacle. Both
+// engines call this.
 #pragma once
 
 #include <algorithm>
@@ -14,20 +15,20 @@
 
 namespace carom {
 
-// Two disks, or a disk and an inner wall, that e = 0 leaves without speed along the line between them may, by rounding,
-// approach again, and meet at that moment for ever. So they part with this share at least of the speed at which they
-// met: enough above rounding, and less than what any measurement sees.
+// The restitution of disk pairs and at obstacles is at least this. With e = 0, two disks (or a disk and an inner wall)
+// would keep no relative speed along the normal; by rounding they might still approach, and collide at the same moment
+// for ever. The value is far above rounding and far below what any measurement can see.
 inline constexpr double least_rebound = 0x1p-40;
 
 // The constants of a run.
 struct ExactRules {
   Domain box;
-  Gravity gravity;             // length / time^2
-  double restitution = 1.0;    // of disk pairs, `least_rebound` at least
-  double contact_time = -1.0;  // TC model; time, < 0: off
-  std::uint64_t seed = 0;      // with thermal sides
-  bool common_mass = true;     // pairs share impulses half and half
-  bool constant = true;  // neither a law nor the TC model: a contact's restitution is a number that is known before
+  Gravity gravity;                      // length / time^2
+  double restitution = 1.0;             // of disk pairs, `least_rebound` at least
+  double contact_time = -1.0;           // TC model; time, < 0: off
+  std::uint64_t seed = 0;               // with thermal sides
+  bool common_mass = true;              // pairs share impulses half and half
+  bool constant = true;                 // neither a law nor the TC model: restitution does not depend on the contact
   const RestitutionLaw* law = nullptr;  // of disks, where `restitution` is not all
   const Surfaces* surfaces = nullptr;   // where disks are rough
 
@@ -50,7 +51,7 @@ inline bool made_elastic(const ExactRules& rules, double s, double last_contact)
   return rules.tc() && s - last_contact < rules.contact_time;
 }
 
-// May a contact lose energy along the surfaces?
+// May friction at contacts of this kind dissipate energy?
 inline bool rubs_away(const ExactRules& rules, Touching which) {
   return rules.surfaces != nullptr && rules.surfaces->of(which).dissipates();
 }
@@ -59,21 +60,21 @@ inline RoughDisk rough_disk(ExactDisk& a) {
   return {a.radius, a.path.vx, a.path.vy, a.spin};
 }
 
-// A disk has just bounced off a wall or a fixed disk, which changed its velocity by `pressed` along this normal.
+// Friction at a wall or a fixed disk that has just changed the velocity of disk a by `pressed` along this normal.
 inline void rub_against(const ExactRules& rules, Vec2 normal, Touching which, double pressed, ExactDisk& a) {
   if (rules.surfaces == nullptr) return;
   rub_wall(rules.surfaces->of(which), rules.surfaces->inertia, normal, pressed, rough_disk(a));
 }
 
-// Of smooth disks: nothing happens along their surfaces.
+// Smooth disks: no friction.
 struct NoRubbing {
   void operator()(const Relative& /*met*/, double /*change*/) const {}
 };
 
 // Two disks (smaller id first) collide at time s; their new segments p and q start there. share and reduced_mass: of
-// their masses. restitution(r): of disks that approach as r says. rub(r, change): what follows along their surfaces,
-// with the change that collide() returned. gravity: may g be other than 0?
-// wraps: false where it is known that both, and the way between them, cross no border along a period.
+// their masses. restitution(r): of disks whose relative motion is r. rub(r, change): applies friction, given what
+// collide() returned. gravity: false if g is 0. wraps: false if neither disk nor the line between them crosses a
+// periodic side.
 template <bool gravity, bool wraps = true, class RestitutionOf, class Rub = NoRubbing>
 [[gnu::always_inline]] inline PairImpact collide_paths(const Domain& box, const Gravity& g, double s, Shares share,
                                                        double reduced_mass, const RestitutionOf& restitution,
@@ -99,7 +100,7 @@ template <bool gravity, bool wraps = true, class RestitutionOf, class Rub = NoRu
   return outcome;
 }
 
-// The same in a sheared box, of disks with these masses. rough: may rub do anything?
+// The same in a sheared box, for disks of these masses. rough: false if rub does nothing.
 template <class RestitutionOf, class Rub>
 [[gnu::noinline, gnu::cold]] PairImpact collide_sheared(const Domain& box, double s, double mass_p, double mass_q,
                                                         const RestitutionOf& restitution, bool rough, const Rub& rub,
@@ -131,7 +132,7 @@ struct PairRestitution {
   bool held;     // it would lose energy otherwise
 };
 
-// Of smooth disks that approach as r says, at time s, if one of them collided at last_contact.
+// Restitution along the normal at time s, for relative motion r. last_contact: the last collision of either disk.
 inline PairRestitution restitution_of_pair(const ExactRules& rules, double s, DiskId first, DiskId second,
                                            double last_contact, const Relative& r) {
   const double e = rules.law == nullptr
@@ -169,19 +170,20 @@ inline PairImpact collide_at(const ExactRules& rules, double s, ExactDisk& a, Ex
 }
 
 // A disk that lies on the floor would collide infinitely often. Under the TC model it leaves the floor with at least
-// this share of g contact_time, so that its hops last half a contact time or more; their energy, m (g t_c)^2 / 32, is
-// of the order of what the model leaves to any disk at rest. The energy is added to the system, which bounds what a
-// pile costs: were it given only to disks at rest, a pile would cool further and have four times as many collisions.
+// this share of g contact_time, so that a hop lasts half a contact time or more. The energy of a hop, m (g t_c)^2 / 32,
+// is of the order of what the model leaves to any disk at rest. It is added to the system at every contact with the
+// floor, which bounds the cost of a pile: if only disks at rest received it, a pile would cool further and have four
+// times as many collisions.
 inline constexpr double least_hop = 0.25;
 
-// The share of a wall's acceleration that counts in a hop: one that vibrates presses a disk for half a period at most,
-// which may be shorter than a contact. towards: the acceleration towards the disk.
+// The share of a wall's acceleration that counts in a hop: a vibrating wall presses a disk for half a period at most,
+// which may be shorter than contact_time. towards: the wall's acceleration towards the disk; only its sign matters.
 inline double hop_share(const ExactRules& rules, const SideMotion& motion, double towards) {
   const bool turns = rules.tc() && motion.vibrates() && towards > 0.0;
   return turns ? std::min(1.0, motion.half() / rules.contact_time) : 1.0;
 }
 
-// Disk a is at a thermal side at time s.
+// Disk a touches a thermal side at time s.
 inline WallImpact meet_thermal_side(const ExactRules& rules, double s, Side side, ExactDisk& a) {
   PathSegment& p = a.path;
   const double before = outward_speed(side, p.vx, p.vy);
@@ -201,8 +203,8 @@ inline WallImpact meet_thermal_side(const ExactRules& rules, double s, Side side
   return outcome;
 }
 
-// Disk a is at a moving side at time s. Under the TC model it leaves a side that accelerates towards it with a hop, as
-// it does from the floor.
+// Disk a touches a moving side at time s. Under the TC model it hops off a side that accelerates towards it, as off the
+// floor.
 inline WallImpact meet_moving_side(const ExactRules& rules, double s, Side side, ExactDisk& a) {
   PathSegment& p = a.path;
   const SidePlace place = rules.box.place_after(side, s);
@@ -229,13 +231,13 @@ inline WallImpact meet_moving_side(const ExactRules& rules, double s, Side side,
   return outcome;
 }
 
-// The disk leaves the side with at least this speed; no operation where that is not above 0.
+// Makes the disk leave the side with at least this speed; does nothing unless least > 0.
 inline void hop_off(Side side, double least, PathSegment& p) {
   if (least > 0.0 && -outward_speed(side, p.vx, p.vy) < least) set_outward_speed(side, -least, p.vx, p.vy);
 }
 
-// Disk a reaches a side at time s: it bounces off a wall or crosses a periodic side. The caller removes what a sink
-// takes.
+// Disk a reaches a side at time s: it bounces off a wall or crosses a periodic side. If the side is a sink, the caller
+// removes the disk.
 inline WallImpact meet_side_at(const ExactRules& rules, double s, Side side, ExactDisk& a) {
   PathSegment& p = a.path;
   p = carried_to(p, s, rules.gravity);
@@ -307,7 +309,7 @@ inline WallImpact bounce_off_obstacle(const ExactRules& rules, double s, const O
   return outcome;
 }
 
-// The same of a wall that moves, in its frame.
+// The same for a moving wall, in the frame of the wall.
 [[gnu::noinline, gnu::cold]] inline WallImpact bounce_off_moving_wall(const ExactRules& rules, double s,
                                                                       const Obstacle& o, ExactDisk& a) {
   PathSegment& p = a.path;
@@ -333,7 +335,7 @@ inline WallImpact bounce_off_obstacle(const ExactRules& rules, double s, const O
   return impact;
 }
 
-// Disk a has bounced off an obstacle at time s, where its path begins.
+// After a bounce off an obstacle at time s, where the path p begins: makes sure that the disk recedes (parting.hpp).
 [[gnu::noinline, gnu::cold]] inline void part_from_obstacle(const Domain& box, double s, const Obstacle& o,
                                                             PathSegment& p) {
   if (o.moves) {
@@ -344,7 +346,7 @@ inline WallImpact bounce_off_obstacle(const ExactRules& rules, double s, const O
   }
 }
 
-// Disk a touches obstacle k (its place in State::obstacles) at time s. The caller removes what a sink takes.
+// Disk a touches obstacle k (its place in State::obstacles) at time s. If that is a sink, the caller removes the disk.
 inline WallImpact meet_obstacle_at(const ExactRules& rules, double s, std::uint32_t k, ExactDisk& a) {
   PathSegment& p = a.path;
   const bool begins_now = !(s > p.start);
@@ -360,7 +362,7 @@ inline WallImpact meet_obstacle_at(const ExactRules& rules, double s, std::uint3
   return outcome;
 }
 
-// When an event happens and to which disks.
+// The time of an event and the ids of its disks.
 struct EventMark {
   double time = never;      // in the window
   DiskId id1 = 0, id2 = 0;  // id2 may be a wall_partner
@@ -374,9 +376,9 @@ inline bool dissipates(const ExactRules& rules) {
          (box.obstacles != nullptr && box.obstacles->dissipates());
 }
 
-// Inelastic collapse: more than this many impacts of one disk that lose energy, within this share of the window's
-// length. Elastic ones do not count: 15,707,963 collisions of a light disk between a wall and a heavy one 10^14 times
-// its mass are as many as there are, and end.
+// Inelastic collapse: more than collapse_events inelastic impacts of one disk within the share collapse_share of the
+// window's length. Elastic impacts do not count: a light disk between a wall and a disk of 10^14 times its mass has
+// 15,707,963 collisions, and then no more.
 inline constexpr std::uint32_t collapse_events = 256;
 inline constexpr double collapse_share = 1e-12;
 
@@ -385,7 +387,7 @@ struct Burst {
   double begin = -never;  // time in the window
   std::uint32_t events = 0;
 
-  // Returns true when the impacts pile up.
+  // Counts an impact at time s. Returns true if that is an inelastic collapse.
   bool add(double s, double window) {
     if (s - begin > collapse_share * window) *this = {s, 0};
     return ++events > collapse_events;

@@ -36,26 +36,28 @@ inline PathSegment carried_to(PathSegment p, double s, const Gravity& g) {
   return p;
 }
 
-// Of the images above a sheared box, at time s of the window; box: at its start.
+// Displacement of the images above a sheared box at time s of the window; length. box: at the start of the window.
 inline double offset_in_window(const Domain& box, double s) {
   return box.shear.offset + box.shear.jump * s;
 }
 
-// Of paths that begin at the same time in a sheared box. Not inlined, as what else a sheared box asks for.
+// Relative position and velocity of two paths that begin at the same time, in a sheared box. Not inlined: such boxes
+// are rare, and the loops around the call keep their registers.
 [[gnu::noinline, gnu::cold]] inline Relative relative_in_shear(const PathSegment& a, const PathSegment& b,
                                                                const Domain& box) {
   const Relative raw{b.x - a.x, b.y - a.y, b.vx - a.vx, b.vy - a.vy};
   return to_row(raw, rows_to_nearest(raw.dy, box), offset_in_window(box, a.start), box);
 }
 
-// In any other box.
+// The same in any other box.
 inline Relative relative(const PathSegment& a, const PathSegment& b, const Domain& box) {
   const Vec2 apart = nearest_image_at_rest({b.x - a.x, b.y - a.y}, box);
   return {apart.x, apart.y, b.vx - a.vx, b.vy - a.vy};
 }
 
 // Time from now until the disks touch, >= 0. Disks that approach and overlap (by rounding) collide now; disks that
-// recede have no event, overlapping or not (Bannerman et al. 2014): the root that suffers cancellation is never used.
+// recede have no event, overlapping or not (Bannerman et al. 2014). So the root that suffers cancellation is never
+// used.
 inline double time_to_contact(const Relative& r, double contact_distance) {
   if (!(r.approach() < 0.0)) return never;
   const double t = touching_time(r, contact_distance);
@@ -67,7 +69,7 @@ inline double time_to_contact(const Relative& r, double contact_distance) {
 // behind it can be met. Larger values would need more images.
 inline constexpr double longest_flight = 0.25;
 
-// A little more than disks truly travel, against rounding; one image too many changes nothing.
+// A margin against rounding on how far disks travel. To test an image that cannot be reached changes no result.
 inline constexpr double far_travel_margin = 1.0 + 1e-9;
 
 // Time to contact with the images beyond the nearest one, if any of them can be reached within `span` (time).
@@ -88,8 +90,8 @@ inline double time_to_far_contact(const Relative& r, double contact_distance, co
   return t;
 }
 
-// As the time to contact with the nearest image and time_to_far_contact, in a sheared box: the images above and below
-// move. offset: now. Windows are so short that no image passes another one.
+// Time to contact with any image in a sheared box, where the rows of images above and below move. nearest: to the
+// nearest image. offset: of the row above, now. Precondition: span is so short that no image passes another one.
 [[gnu::noinline, gnu::cold]] inline double time_to_sheared_contact(const Relative& nearest, double contact_distance,
                                                                    const Domain& box, double offset, double span) {
   constexpr double margin = far_travel_margin;
@@ -128,8 +130,8 @@ inline double time_to_side(Side side, double gap, double speed, const Gravity& g
   return time_to_approach(gap, speed, outward_acceleration(side, g));
 }
 
-// Time until a segment has covered longest_flight of the period across this periodic side, moving towards it; along
-// gravity a bound that it cannot beat.
+// Time until a segment that moves towards this periodic side has covered longest_flight of the period; where gravity
+// acts along that axis, a time by which it has surely not yet covered it.
 inline double time_to_crossing(Side side, const PathSegment& p, const Domain& box, const Gravity& g) {
   const double speed = outward_speed(side, p.vx, p.vy);
   const double acceleration = outward_acceleration(side, g);
@@ -138,18 +140,19 @@ inline double time_to_crossing(Side side, const PathSegment& p, const Domain& bo
   if (along_x && acceleration == 0.0) return speed > 0.0 ? flight / speed : never;
   const double fast = std::abs(speed);
   const double root = std::sqrt(fast * fast + 2.0 * std::abs(acceleration) * flight);
-  // One event for the axis: at the side that the disk moves towards, at that which it falls to if it only falls.
+  // One event for the axis: at the side that the disk moves towards; without speed, at the side that it falls to.
   const bool this_side = speed > 0.0 || (speed == 0.0 && acceleration > 0.0);
   return this_side ? 2.0 * flight / (fast + root) : never;
 }
 
-// For how long after `start` to look for what is to come by `end`: whatever rounds to it, too, so that two who look up
-// to different ends find the same. Time.
+// How long after `start` to search for events up to `end`, including those that round to `end`: so that searches with
+// different ends agree on the events before both. Time.
 inline double span_until(double start, double end) {
   return (end - start) + 0x1p-52 * std::abs(end);
 }
 
-// A path and a moving side, at the start of the path. box.places: of the sides at the start of the window.
+// A path and a moving side at the start of the path. Precondition of approach_of: box.places are those at the start of
+// the window.
 struct SideApproach {
   SidePlace place;  // of the side
   double gap;       // length, < 0: beyond it by rounding
@@ -196,7 +199,8 @@ inline double side_time(const PathSegment& p, Side side, double radius, const Do
   if (box.periodic_y()) p.y = wrap(p.y, box.height);
 }
 
-// The same in any box. Returns the energy that a disk of this mass gains where it crosses the sides of a sheared one.
+// The same in any box. Returns the energy that a disk of this mass gains by crossing the bottom or the top of a sheared
+// box.
 inline double wrap_with_work(PathSegment& p, double mass, const Domain& box) {
   if (!box.shear.acts()) {
     wrap_into(p, box);

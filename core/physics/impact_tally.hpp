@@ -1,5 +1,5 @@
-// What the impacts and supports of one step add to the counters. Its sums are exact, so parts of a step may be tallied
-// apart, in any order, and added.
+// What the impacts and supports of one step add to the counters. The sums are exact, so parts of a step may be tallied
+// separately, in any order, and then added.
 #pragma once
 
 #include <array>
@@ -18,17 +18,18 @@ namespace carom {
 
 struct ImpactTally {
   Count collisions = 0;
-  Count wall_collisions = 0;        // with obstacles too; their impulses are no force on a side
-  Count loads = 0, wall_loads = 0;  // supports that bore (resting.hpp): their impulses count, as collisions they do not
+  Count wall_collisions = 0;        // with sides and obstacles
+  Count loads = 0, wall_loads = 0;  // loaded supports (resting.hpp): no collisions, but their impulses count
   Count inaccurate = 0;             // of `collisions`, see PairImpact
   Count inaccurate_at_walls = 0;    // of `wall_collisions`
   ExactSum virial;
   std::array<ExactSum, 4> wall_impulse;
-  std::vector<ExactSum> side_energy;  // that each side gave; empty where none did
-  std::vector<ExactSum> pushes;   // of inner walls that move: work, momentum along x and y; empty where none did any
-  std::vector<ExactSum> shear;    // in a sheared box: PairImpact::shear_virial, and the work done; else empty
-  std::vector<ExactSum> absence;  // one: of each disk that a sink took, the rest of the window; empty where none did
-  SinkCounts taken;               // how many each sink took; likewise
+  std::vector<ExactSum> side_energy;  // energy that each side gave; empty if none did
+  std::vector<ExactSum> pushes;       // of moving inner walls: work, momentum along x, along y; empty if none pushed
+  std::vector<ExactSum> shear;        // in a sheared box: shear_virial and shear_work of PairImpact; else empty
+  std::vector<ExactSum>
+      absence;       // one sum: of the rest of the window for each disk that a sink took; empty if none did
+  SinkCounts taken;  // how many each sink took
 
   // partner: the second disk's id, or a wall_partner.
   void add(DiskId partner, const Impact& impact) {
@@ -36,7 +37,7 @@ struct ImpactTally {
     add_wall(partner, std::get<WallImpact>(impact));
   }
 
-  // Of a disk and a side or an obstacle.
+  // A disk and a side or an obstacle.
   void add_wall(DiskId partner, const WallImpact& impact) {
     if (!impact.happened) return add_crossing(impact.energy);
     inaccurate_at_walls += impact.inaccurate ? 1 : 0;
@@ -50,7 +51,7 @@ struct ImpactTally {
     if (impact.energy != 0.0) add_energy(wall_side(partner), impact.energy);
   }
 
-  // Of two disks. may_shear: may the box be sheared?
+  // Two disks. may_shear: false if the box is not sheared.
   template <bool may_shear = true>
   void add_pair(const PairImpact& impact) {
     if constexpr (!may_shear) {
@@ -77,7 +78,7 @@ struct ImpactTally {
     shear[1].add(work);
   }
 
-  // Of collisions in a sheared box that cross no side of it: the shear does no work.
+  // Collisions in a sheared box with no side between the disks: the shear does no work.
   void add_shears(std::span<const double> virials) {
     if (virials.empty()) return;
     shear.resize(2);
@@ -96,7 +97,7 @@ struct ImpactTally {
     pushes[2].add(along_y);
   }
 
-  // A sink took a disk, so long before the window's end.
+  // A sink took a disk `rest` (time) before the window's end.
   void add_taken(SinkNumber sink, double rest) {
     absence.resize(1);
     absence[0].add(rest);
@@ -109,14 +110,14 @@ struct ImpactTally {
     virial.add(its_virial);
   }
 
-  // Collisions whose virials are added together, which is faster.
+  // Several collisions at once, which is faster.
   void add_collisions(std::span<const double> virials) {
     collisions += static_cast<Count>(virials.size());
     virial.add(virials);
   }
 
-  // What a support bore in this round of the step, |impulse| (r1 + r2) or, for a wall, |impulse|.
-  // A wall that moves does work by it.
+  // borne: what a support bore in this round of the step (borne() of support_solver.hpp). A moving wall does work by
+  // it.
   void add_load(DiskId partner, const Support& s, double borne, const Domain& box) {
     if (is_wall(partner)) {
       ++wall_loads;
@@ -153,7 +154,7 @@ struct ImpactTally {
 
   Count all_inaccurate() const { return inaccurate + inaccurate_at_walls; }
 
-  // Rounds once a step.
+  // Adds the sums to the counters; the only rounding of a step.
   void count_into(Counters& counters) const {
     counters.collisions += collisions;
     counters.wall_collisions += wall_collisions;
@@ -172,7 +173,7 @@ struct ImpactTally {
   }
 
  private:
-  // Of sums that are there only where there is something to add up.
+  // Adds lists of sums that are empty where there was nothing to add.
   static void add_each(const std::vector<ExactSum>& from, std::vector<ExactSum>& to) {
     if (from.empty()) return;
     to.resize(from.size());

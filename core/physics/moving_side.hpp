@@ -1,4 +1,4 @@
-// A side that moves: a wall in whose frame disks are reflected. What it gives to the disks is its work.
+// A moving side: a wall that reflects disks in its own frame. The energy that it gives to them is its work.
 #pragma once
 
 #include <cmath>
@@ -7,7 +7,7 @@
 
 namespace carom {
 
-// Speed towards the side, in its frame: of a disk and a side that stands at `place`. length / time.
+// Speed of a disk towards the side in the frame of the side; length / time.
 inline double approach_speed(Side side, double vx, double vy, const SidePlace& place) {
   return outward_speed(side, vx, vy) + place.speed;
 }
@@ -24,14 +24,14 @@ inline double rebound(Side side, const SidePlace& place, double approach, double
   return approach + away;
 }
 
-// Acceleration towards the side, in its frame; length / time^2.
+// Acceleration of a disk towards the side in the frame of the side; length / time^2.
 inline double approach_acceleration(Side side, const Gravity& g, const SidePlace& place) {
   return outward_acceleration(side, g) + place.acceleration;
 }
 
-// Time until a disk `gap` away from a side touches it, approaching at `speed` with this acceleration: the smaller root
-// of speed t + acceleration t^2 / 2 = gap that is not negative, in forms that do not cancel; `HUGE_VAL` if there is
-// none. A disk that overlaps by rounding counts as touching.
+// Time until a disk `gap` away from a side touches it: the smallest root >= 0 of speed t + acceleration t^2 / 2 = gap,
+// in forms that do not cancel; HUGE_VAL if there is none. speed, acceleration: towards the side. A disk that overlaps
+// by rounding counts as touching.
 inline double time_to_approach(double gap, double speed, double acceleration) {
   const double distance = gap > 0.0 ? gap : 0.0;
   if (acceleration == 0.0) return speed > 0.0 ? distance / speed : HUGE_VAL;

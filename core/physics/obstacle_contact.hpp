@@ -1,5 +1,5 @@
-// A disk and an obstacle, as time stepping sees them: how deep one lies in the other, since when, and what the obstacle
-// does. An obstacle is a wall that may be curved: the formulas of boundary.hpp along the shortest line to it.
+// A disk and an obstacle in time stepping: how deep one lies in the other, and since when. An obstacle is a wall that
+// may be curved: the formulas are those of boundary.hpp along the shortest line to it.
 #pragma once
 
 #include <algorithm>
@@ -40,8 +40,7 @@ inline ShortestLine shortest_line(const Obstacle& o, Vec2 apart) {
   return {apart, length2, std::sqrt(length2), false};
 }
 
-// An obstacle that moves where it is so long after the time that the box is used for; time, < 0 within a step only.
-// What it is then does not move any more.
+// A moving obstacle at one moment, as an obstacle at rest there, with its velocity and acceleration in `place`.
 struct PlacedObstacle {
   Obstacle obstacle;
   WallPlace place;
@@ -55,13 +54,13 @@ struct PlacedObstacle {
   return now;
 }
 
-// By how many periods `apart` is off the nearest one, as a length.
+// The whole periods, as lengths, by which `apart` is further than the nearest image.
 inline Vec2 whole_periods(Vec2 apart, const Domain& box) {
   return {box.periodic_x() ? std::floor(apart.x / box.width + 0.5) * box.width : 0.0,
           box.periodic_y() ? std::floor(apart.y / box.height + 0.5) * box.height : 0.0};
 }
 
-// Likewise from the nearest image of an obstacle that does not move. Precondition: (x, y) is out of the box by less
+// The shortest line from the nearest image of an obstacle at rest. Precondition: (x, y) lies outside the box by less
 // than half a period.
 inline ShortestLine shortest_line(const Obstacle& o, double x, double y, const Domain& box) {
   const Vec2 apart{x - o.x, y - o.y};
@@ -86,7 +85,7 @@ inline ShortestLine shortest_line(const Obstacle& o, double x, double y, const D
   return nearest;
 }
 
-// Likewise from one that is where its motion has brought it, however often round a periodic box.
+// The same for an obstacle whose motion may have carried it through a periodic box many times.
 inline ShortestLine shortest_line_wound(Obstacle o, double x, double y, const Domain& box) {
   const Vec2 wound = whole_periods({x - o.x, y - o.y}, box);
   o.x += wound.x;
@@ -122,7 +121,7 @@ inline ObstacleGap gap_to_placed(const PlacedObstacle& now, double x, double y, 
   return gap_to_placed(placed(o, box), x, y, r, box);
 }
 
-// Likewise where the image that is displaced by `shift` is in reach, to rounding; else no more than that it is not.
+// The same if the image displaced by `shift` is in reach, up to rounding; otherwise only `beyond` < 0 is meaningful.
 [[gnu::noinline, gnu::cold]] inline ObstacleGap gap_to_moving_image(const Obstacle& o, double x, double y, double r,
                                                                     Vec2 shift, const Domain& box) {
   const PlacedObstacle now = placed(o, box);
@@ -132,14 +131,14 @@ inline ObstacleGap gap_to_placed(const PlacedObstacle& now, double x, double y, 
   return gap_to_placed(now, x, y, r, box);
 }
 
-// The nearest image. Coincident centres: upwards.
+// To the nearest image. If the centres coincide, the normal points upwards.
 inline ObstacleGap gap_to(const Obstacle& o, double x, double y, double r, const Domain& box) {
   if (o.moves) [[unlikely]]
     return gap_to_moving(o, x, y, r, box);
   return gap_along(shortest_line(o, x, y, box), r + o.radius);
 }
 
-// Is an obstacle out of reach of a disk of radius r at this place relative to it?
+// Is a disk of radius r, `apart` from the obstacle's (x, y), certainly out of contact with it?
 inline bool is_surely_beyond(const Obstacle& o, Vec2 apart, double r) {
   if (o.is_segment()) return shortest_line(o, apart).distance > r;
   const double contact = (r + o.radius) * (1.0 + 1e-6);
@@ -151,10 +150,10 @@ inline bool is_surely_beyond(const Obstacle& o, Vec2 apart, double r) {
 template <class Found>
 void report_if_touched(const Domain& box, std::uint32_t k, Vec2 shift, double x, double y, double r, Found&& found) {
   const Obstacle& o = (*box.obstacles)[k];
-  // This image alone, first: most are out of reach.
+  // First a cheap test of this image alone: most are out of reach.
   if (!o.moves && is_surely_beyond(o, {(x - o.x) - shift.x, (y - o.y) - shift.y}, r)) return;
   const ObstacleGap gap = o.moves ? gap_to_moving_image(o, x, y, r, shift, box) : gap_to(o, x, y, r, box);
-  // Images lie whole periods apart: of all that are visited, the nearest one only.
+  // Several images may be visited, whole periods apart; only the nearest counts.
   const bool nearest =
       std::abs(shift.x - gap.shift.x) < 0.5 * box.width && std::abs(shift.y - gap.shift.y) < 0.5 * box.height;
   if (gap.beyond >= 0.0 && nearest) found(k, gap);
@@ -176,7 +175,8 @@ void for_each_solid_touched(const Domain& box, double x, double y, double r, Fou
   });
 }
 
-// The same in the order of the list, whatever cells they lie in: what one does to a disk, the next one meets.
+// The same in the order of the list, whatever cells the obstacles lie in: found() may move the disk, so the order
+// matters.
 template <class Found>
 void for_each_solid_touched_in_order(const Domain& box, double x, double y, double r, Found&& found) {
   std::uint32_t from = 0;
@@ -196,10 +196,10 @@ void for_each_solid_touched_in_order(const Domain& box, double x, double y, doub
   }
 }
 
-// Does a disk of radius r that touches one segment as `hidden` says touch nothing there but what it touches of another
-// one, as `other` says? Where inner walls join, both have the point in which they do: the end of one hides behind the
-// side of the other, and of two ends, or of two sides, the later one. Two contacts in one place would look like those
-// of a disk that is squeezed (resting.hpp), which does not bounce.
+// Where inner walls join, a disk touches both segments at the same point, and one of the two contacts must be dropped:
+// two contacts would look like those of a squeezed disk (resting.hpp), which does not bounce. The contact `hidden` is
+// dropped in favour of `other` if the disk of radius r touches the same point in both, and `hidden` is at a segment's
+// end and `other` at a side; of two ends or two sides, the one later in the list is dropped.
 inline bool hides(const ObstacleGap& other, bool is_later, const ObstacleGap& hidden, double r, const Domain& box) {
   if (other.velocity.x != hidden.velocity.x || other.velocity.y != hidden.velocity.y) return false;
   const double rounding = 1e-12 * r + 0x1p-46 * std::max(box.width, box.height);
@@ -212,7 +212,7 @@ inline bool hides(const ObstacleGap& other, bool is_later, const ObstacleGap& hi
   return same_point && other.flat == hidden.flat && is_later;
 }
 
-// Does another segment hide the contact of a disk of radius r at (x, y) with obstacle k?
+// Is the contact of a disk of radius r at (x, y) with obstacle k dropped in favour of another segment's?
 inline bool is_hidden(const Domain& box, std::uint32_t k, const ObstacleGap& gap, double x, double y, double r) {
   if (!(*box.obstacles)[k].is_segment()) return false;
   bool hidden = false;
@@ -232,7 +232,7 @@ inline bool touches_obstacle(const Domain& box, double x, double y, double r) {
   return touched;
 }
 
-// Which of those that take disks away it touches, the first of several; no_sink if none.
+// The number of the inner sink that the disk touches, the smallest of several; no_sink if none.
 inline SinkNumber inner_sink_touched(const Domain& box, double x, double y, double r) {
   SinkNumber sink = no_sink;
   if (box.obstacles == nullptr || !box.obstacles->has_sinks()) return sink;
@@ -252,16 +252,16 @@ inline double speed_towards(const ObstacleGap& gap, double vx, double vy) {
   return -((vx - gap.velocity.x) * gap.nx + (vy - gap.velocity.y) * gap.ny);
 }
 
-// Time since the disk touched the inside of a segment: as time_since_wall, of a wall that is tilted.
+// Time since the disk touched the side of a segment: as time_since_wall, for a tilted wall.
 inline double time_since_flat(const ObstacleGap& gap, double speed, const Gravity& g) {
   const double discriminant = speed * speed - 2.0 * g.against(gap.nx, gap.ny) * gap.beyond;
   return discriminant < 0.0 ? HUGE_VAL : 2.0 * gap.beyond / (speed + std::sqrt(discriminant));
 }
 
-// Time since the disk touched the obstacle, on its present path; infinity when this path never did. Without gravity
-// the root of a quadratic (touching_time); with it, two steps by Newton from there, which leave an error of the order
-// of g^2 dt^4: it shifts the place of the impact, not the energy, as the disk goes back and forth on its own parabola.
-// (vx, vy): in the frame of an obstacle that moves. Preconditions: gap.beyond >= 0 and approaching.
+// Time since the disk touched the obstacle, on its present path; infinity if the path never did. Without gravity this
+// is the root of a quadratic (touching_time). With gravity, two Newton steps from there leave an error of the order of
+// g^2 dt^4; it shifts the place of the impact but not the energy, since the disk moves back and forth on its own
+// parabola. (vx, vy): velocity relative to the obstacle. Preconditions: gap.beyond >= 0, and the disk approaches.
 inline double time_since_obstacle(const Obstacle& o, const ObstacleGap& gap, double r, double vx, double vy,
                                   const Gravity& g) {
   if (gap.flat) return time_since_flat(gap, -(vx * gap.nx + vy * gap.ny), g);

@@ -1,8 +1,8 @@
-// The exact method's contact of a path with an obstacle. Without gravity it is that of two disks; under gravity the
-// disk falls and the obstacle does not, so that the distance squared is a polynomial of fourth degree in time. Its
+// The exact method: when a path touches an obstacle. Without gravity this is the contact of two disks. Under gravity
+// the disk falls and the obstacle does not, so the squared distance is a polynomial of fourth degree in time. Its
 // earliest root is found with certainty, from + - * / and square roots alone: the approach, half its derivative, is
-// monotone between the two roots of a quadratic, so that its sign changes, and with them the pieces of time in which
-// the disk comes nearer, are bracketed; and so is the contact within such a piece.
+// monotone between the two roots of a quadratic. That brackets its sign changes, hence the intervals of time in which
+// the disk comes nearer, and within each of them the contact.
 #pragma once
 
 #include <cmath>
@@ -16,9 +16,9 @@
 
 namespace carom {
 
-// t in [a, b] where value(t) changes sign: value(a) and value(b) have different signs, or one of them is 0. Newton's
-// steps where they stay within the bracket, else it is halved; to the last bit, in an order of operations that is
-// always the same.
+// t in [a, b] where value(t) changes sign. Precondition: value(a) and value(b) have different signs, or one of them is
+// 0. Takes Newton steps as long as they stay within the bracket, and halves it otherwise, until t no longer changes.
+// slope(t): the derivative of value.
 template <class Value, class Slope>
 double bracketed_root(Value&& value, Slope&& slope, double a, double b) {
   constexpr int most_halvings = 200;
@@ -36,7 +36,7 @@ double bracketed_root(Value&& value, Slope&& slope, double a, double b) {
   return t;
 }
 
-// A disk in free fall past an obstacle, the obstacle's centre the origin.
+// A disk in free fall past a round obstacle whose centre is the origin.
 struct FallPast {
   double x, y, vx, vy;  // of the disk now
   Gravity g;            // not 0
@@ -59,14 +59,14 @@ struct FallPast {
   }
 };
 
-// Two times at which the approach turns; none where `real` is false.
+// The two times at which the approach has an extremum; none if `real` is false.
 struct ApproachTurns {
   bool real;
   double time[2];
 };
 
-// The roots of approach_slope, a quadratic: (u -+ sqrt((u^2 - 2 v^2 + 2 g h) / 3)) / g, where against gravity the speed
-// is u and the height h, and across it the speed is v.
+// The roots of approach_slope, a quadratic: (u -+ sqrt((u^2 - 2 v^2 + 2 g h) / 3)) / g. Here u is the speed and h the
+// height, both against gravity, and v the speed across it.
 inline ApproachTurns turns_of(const FallPast& fall) {
   const double size = fall.g.size;
   const double up_x = fall.g.left / size;
@@ -79,7 +79,7 @@ inline ApproachTurns turns_of(const FallPast& fall) {
   return {turns > 0.0, {(rising - half) / size, (rising + half) / size}};
 }
 
-// A time by which the disk falls away for ever, not before `after`.
+// A time, not before `after`, from which on the disk recedes for ever.
 inline double falls_away_by(const FallPast& fall, double after) {
   const double size = fall.g.size;
   const double far = std::abs(fall.g.down / size * fall.y + fall.g.left / size * fall.x) + fall.contact;
@@ -89,16 +89,16 @@ inline double falls_away_by(const FallPast& fall, double after) {
   return last;
 }
 
-// Is what is so far away (length) out of reach within `span` (time), at no more than this speed and acceleration? With
-// a margin far above the rounding of a contact's time.
+// Is a distance `away` (length) more than can be covered within `span` (time) at this speed and acceleration? The
+// margin is far above the rounding of a contact's time.
 inline bool is_out_of_reach(double away, double speed, double acceleration, double span) {
   constexpr double margin = 1.0 + 1e-6;
   return away > margin * span * (speed + 0.5 * acceleration * span);
 }
 
-// Time from now, >= 0, until the disk touches the obstacle; `never` if not, or if it does so only after `span` (time)
-// or comes nearer only then. A disk that comes nearer and overlaps (by rounding) collides now; one that overlaps and
-// recedes, when it has come back to where it is.
+// Time from now, >= 0, until the disk touches the obstacle; `never` if it does not. May return `never` for a contact
+// after `span` (time). A disk that approaches and overlaps (by rounding) collides now; one that overlaps and recedes
+// collides when it is as deep again.
 inline double time_to_contact_falling(const FallPast& fall, double span) {
   const double gap2 = fall.gap2(0.0);
   const double level = gap2 < 0.0 ? gap2 : 0.0;
@@ -113,8 +113,8 @@ inline double time_to_contact_falling(const FallPast& fall, double span) {
   const ApproachTurns turns = turns_of(fall);
   const double last = falls_away_by(fall, turns.time[1]);
 
-  double from = 0.0;    // start of the present stretch between two turns
-  double nearer = 0.0;  // since when the disk comes nearer, where it does
+  double from = 0.0;    // start of the present interval between two turns
+  double nearer = 0.0;  // when the present approach began, if there is one
   for (int k = 0; k < 3; ++k) {
     const double to = k < 2 ? turns.time[k] : last;
     if (k < 2 && !turns.real) continue;
@@ -122,7 +122,7 @@ inline double time_to_contact_falling(const FallPast& fall, double span) {
     const double there = fall.approach(to);
     if (here < 0.0 && !(there < 0.0)) {
       const double nearest = bracketed_root(approach, approach_slope, from, to);
-      // A disk that gravity presses on the obstacle has no further to come: its gap is 0 from `nearer` on.
+      // A disk that gravity presses on the obstacle is in contact already when it begins to approach.
       if (!(gap(nearer) > 0.0)) return nearer;
       if (!(gap(nearest) > 0.0)) return bracketed_root(gap, gap_slope, nearer, nearest);
     } else if (!(here < 0.0) && there < 0.0) {
@@ -135,15 +135,16 @@ inline double time_to_contact_falling(const FallPast& fall, double span) {
   return never;
 }
 
-// Time from now until a disk touches a fixed disk, or an end of a segment; apart: its place relative to that.
+// Time from now until a disk touches a fixed disk or an end of a segment. apart: position relative to its centre, or to
+// that end.
 inline double time_to_round(Vec2 apart, const PathSegment& p, double contact, const Gravity& g, double span) {
   if (!g.acts()) return time_to_contact({-apart.x, -apart.y, -p.vx, -p.vy}, contact);
   return time_to_contact_falling({apart.x, apart.y, p.vx, p.vy, g, contact}, span);
 }
 
-// Time until a disk at distance `gap` from touching a plane, moving towards it at `speed` with acceleration a, touches
-// it from outside. gap < 0: it is beyond. One that has been pressed beyond by rounding (is_touching) and moves away
-// touches again when it is as far beyond as now.
+// Time until a disk `gap` away from a plane touches it from outside. speed, a: velocity and acceleration towards the
+// plane. gap < 0: the disk is beyond. A disk that is beyond only by rounding (is_touching) and recedes touches again
+// when it is as far beyond as now.
 inline double time_to_plane(double gap, double speed, double a, bool is_touching) {
   if (speed > 0.0) {
     if (is_touching) return 0.0;
@@ -157,7 +158,7 @@ inline double time_to_plane(double gap, double speed, double a, bool is_touching
   return discriminant < 0.0 ? never : (std::sqrt(discriminant) - speed) / a;
 }
 
-// Time until a disk of this radius touches the inside of a segment, on the side where n points.
+// Time until a disk of this radius touches a segment between its ends, on the side to which n points.
 inline double time_to_flat(const Obstacle& o, Vec2 apart, Vec2 n, const PathSegment& p, double radius,
                            const Gravity& g) {
   const double length = std::sqrt(o.dx * o.dx + o.dy * o.dy);
@@ -175,14 +176,15 @@ inline double time_to_flat(const Obstacle& o, Vec2 apart, Vec2 n, const PathSegm
   return t < never && is_inside(t) ? t : never;
 }
 
-// Time until a disk of this radius touches an obstacle: round, or a segment, which is touched at either side or end,
-// whatever comes first. A sink takes a disk that touches it, wherever the disk moves.
+// Time until a disk of this radius touches an obstacle at rest: a round one, or either side or end of a segment. A sink
+// takes a disk that touches it, even if the disk recedes.
 inline double time_to_obstacle(const Obstacle& o, Vec2 apart, const PathSegment& p, double radius, const Gravity& g,
                                double span) {
   if (!o.is_segment()) return time_to_round(apart, p, radius + o.radius, g, span);
   const ShortestLine now = shortest_line(o, apart);
   if (o.kind == ObstacleKind::sink && now.distance <= radius) return 0.0;
-  // Beside it, and never nearer: of a disk that slides along it rounding would say that it touches the ends.
+  // A disk beside the segment that never comes nearer. If it slides along the segment, rounding would find a contact
+  // with the end.
   const bool comes_nearer = p.vx * now.line.x + p.vy * now.line.y < 0.0 || g.against(now.line.x, now.line.y) > 0.0;
   if (now.flat && !comes_nearer) return never;
   const double length = std::sqrt(o.dx * o.dx + o.dy * o.dy);
@@ -194,9 +196,9 @@ inline double time_to_obstacle(const Obstacle& o, Vec2 apart, const PathSegment&
   return std::min(flat, ends);
 }
 
-// Likewise of a wall that moves, `never` where it is out of reach: in its frame the disk falls with the difference of
-// their accelerations, which does not change within a window but where it vibrates as a sine. apart: of the disk and
-// the wall where that is at time 0.
+// The same for a moving wall; `never` if it is out of reach. In the wall's frame the disk falls with the difference of
+// the accelerations, which is constant within a window unless the wall vibrates as a sine. apart: of the disk from the
+// wall's place at time 0.
 [[gnu::noinline, gnu::cold]] inline double time_to_moving_wall(const Obstacle& o, Vec2 apart, const PathSegment& p,
                                                                double radius, const Domain& box, const Gravity& g,
                                                                double span) {
@@ -224,7 +226,7 @@ inline bool may_reach(const Obstacle& o, Vec2 shift, Vec2 low, Vec2 high) {
          y + std::max(o.dy, 0.0) + o.radius >= low.y && y + std::min(o.dy, 0.0) - o.radius <= high.y;
 }
 
-// After how long what moves at this speed, with an acceleration of this size, may have come so far; > 0.
+// The least time in which a disk covers a distance > 0 at this speed and with an acceleration of this size.
 inline double least_time_over(double distance, double speed, double acceleration) {
   return 2.0 * distance / (speed + std::sqrt(speed * speed + 2.0 * acceleration * distance));
 }
@@ -234,22 +236,22 @@ struct ObstacleContact {
   std::uint32_t obstacle = 0;  // its place in State::obstacles
 };
 
-// The first contact of a path with an obstacle, the one earlier in the list of two at the same time; `never` if after
-// `end`. The path is followed, as far as the way is clear or else a cell at a time, so that only obstacles near it cost
-// anything; the time is that of the whole segment and the obstacle, whatever the cells are. near_start(k, shift) is
-// called for every obstacle k, and every image of it displaced by shift, within `margin` (length) of the disk at the
-// path's start, and for others near it. Preconditions: box.obstacles is not null and follows the window; end is finite.
+// The first contact of a path with an obstacle by `end`; of two at the same time, the one earlier in the list. The path
+// is followed in pieces, as far as the way is known to be clear or else a cell at a time, so that only obstacles near
+// it are tested; each test uses the whole segment, so the cells do not change the time. near_start(k, shift) is called
+// for every obstacle k, and every image of it displaced by shift, within `margin` (length) of the disk at the path's
+// start, and perhaps for others. Preconditions: box.obstacles is not null and follows the window; end is finite.
 template <class NearStart>
 ObstacleContact first_obstacle_contact(const PathSegment& p, double radius, const Domain& box, const Gravity& g,
                                        double end, double margin, NearStart&& near_start) {
   const ObstacleCells& obstacles = *box.obstacles;
   const double span = span_until(p.start, end);
-  // A sink that lies along a wall or a side is an opening in it: what touches both at one moment is taken. Rounding may
-  // put either first, so that a sink takes disks from this far away.
+  // A sink that lies along a wall or a side is an opening in it: a disk that touches both at one moment is taken.
+  // Rounding might put the wall first, so a sink takes disks from this distance on.
   const double grip = obstacles.has_sinks() ? place_slack(box, radius) : 0.0;
   const double cell = obstacles.cell();
   const double reach = radius + 1e-9 * (radius + cell) + std::max(grip, margin);
-  // Shorter ways than this share of a cell are not worth asking for.
+  // A clear way shorter than this share of a cell is not used: a step by a whole cell is cheaper.
   constexpr double least_clear = 0.1;
   ObstacleContact first;
   PathSegment at = p;

@@ -1,8 +1,8 @@
-// What rounding takes from a collision. Disks that touch and pass along each other may approach by rounding alone, at
-// 1e-16 of their speeds. The impulse that turns this round is below the last place of their velocities: these stay as
-// they are, and the disks meet again at that moment, for ever. Likewise a disk and an inner wall. So where both paths
-// began at the moment of a contact, and what met approaches still when it has collided, velocities change by the least
-// that parts it.
+// Collisions that rounding would make ineffective. Disks that touch and pass along each other may approach by rounding
+// alone, at 1e-16 of their speeds. The impulse that should reverse this is then below the last bit of their velocities:
+// these do not change, and the disks collide again at the same moment, for ever. The same holds for a disk and an inner
+// wall. So where both paths began at the moment of the contact, and the disks still approach after it, their velocities
+// change by the least amount that parts them.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ inline bool both_begin_at(double s, const PathSegment& p, const PathSegment& q) 
   return !(s > p.start) && !(s > q.start);
 }
 
-// Calls push(k) with k = `least`, then twice that, and so on, until approach() is not negative or k no number.
+// Calls push(k) with k = `least`, then twice that, and so on, until approach() is not negative or k overflows.
 // Precondition: each push makes approach() larger, or leaves it as it is where k is too small.
 template <class Approach, class Push>
 void push_until_parted(double least, const Approach& approach, const Push& push) {
@@ -27,11 +27,11 @@ void push_until_parted(double least, const Approach& approach, const Push& push)
     push(k);
 }
 
-// Two disks (smaller id first) that met as r says, and have collided since. share: of their masses. jump: by how much
-// dvx of r is more than the difference of the disks' vx, in a sheared box; length / time.
+// Two disks (smaller id first) that have just collided; r: their relative motion before. share: of their masses. jump:
+// in a sheared box, dvx of r less the difference of the disks' vx; length / time.
 [[gnu::noinline, gnu::cold]] inline void part_disks(const Relative& r, Shares share, double jump, PathSegment& p,
                                                     PathSegment& q) {
-  // Of masses whose sum is out of a double's range: nothing moves them.
+  // The sum of their masses overflows: nothing moves them.
   if (!(share.first + share.second > 0.0)) return;
   const auto approach = [&] { return r.dx * ((q.vx - p.vx) + jump) + r.dy * (q.vy - p.vy); };
   push_until_parted(-r.approach() / r.distance2(), approach, [&](double k) {
@@ -42,7 +42,7 @@ void push_until_parted(double least, const Approach& approach, const Push& push)
   });
 }
 
-// A disk that has bounced off a wall. line: the shortest one from the wall to its centre; length, not 0. wall: the
+// A disk that has just bounced off a wall. line: the shortest one from the wall to its centre; length, not 0. wall: the
 // wall's velocity.
 [[gnu::noinline, gnu::cold]] inline void part_from_wall(Vec2 line, Vec2 wall, PathSegment& p) {
   const auto approach = [&] { return line.x * (p.vx - wall.x) + line.y * (p.vy - wall.y); };

@@ -1,6 +1,6 @@
-// What a step does with the overlap that is left when its contacts have collided: disks are pushed apart and out of
-// walls; velocities are not touched. Called by the reference on the whole sorted list, by the engine on independent
-// parts of it. Fault F11: docs/original.md.
+// Removal of the overlap that is left after the collisions of a step: disks are pushed apart and out of walls;
+// velocities do not change. The reference calls this on the whole sorted list, the engine on independent parts of it.
+// Fault F11: docs/original.md.
 #pragma once
 
 #include <cmath>
@@ -10,8 +10,7 @@
 
 namespace carom {
 
-// A disk that reaches further than slack (length) beyond a wall is put back to slack beyond it; velocities are not
-// touched.
+// Puts a disk that reaches further than slack (length) beyond a wall back to slack beyond it.
 template <class View>
 void push_wall(const View& d, const Domain& box, std::uint32_t i, Side side, double slack) {
   const double r = d.radius(i);
@@ -24,7 +23,7 @@ void push_wall(const View& d, const Domain& box, std::uint32_t i, Side side, dou
   }
 }
 
-// Likewise for an obstacle.
+// The same for an obstacle.
 template <class View>
 void push_from_obstacle(const View& d, const Domain& box, std::uint32_t i, const Obstacle& o, double slack) {
   const ObstacleGap gap = gap_to(o, d.x[i], d.y[i], d.radius(i), box);
@@ -34,16 +33,16 @@ void push_from_obstacle(const View& d, const Domain& box, std::uint32_t i, const
   d.y[i] += push * gap.ny;
 }
 
-// After one sweep that pushes every contact, further ones push only those that others have pressed deeper than this
-// again (over the sum of radii; well below the 2 % that a pile may overlap), until there are none or after
-// most_push_sweeps; the rest waits for the next step.
+// The first sweep pushes every contact. Further sweeps push only contacts that overlap by more than this share of the
+// sum of radii (well below the 2 % that a pile may overlap), until there are none or after most_push_sweeps; what is
+// left waits for the next step.
 inline constexpr double shallow_overlap = 1e-3;
 inline constexpr int most_push_sweeps = 4;
-// In a pile, where whole layers have to make room.
+// The same limit in a pile, where whole layers have to make room.
 inline constexpr int most_pile_push_sweeps = 256;
-// A light disk between heavy ones moves them by its share of the mass only, a sweep: after so many sweeps they go on
-// for what is deeper than deep_overlap alone. So do contacts that bear load, from the second sweep on: to push a pile's
-// contacts again and again for less opens some of them in every step, and each lost load starts a tremor.
+// A light disk between heavy ones moves them in each sweep only by its share of the mass, so after shallow_push_sweeps
+// only overlaps above deep_overlap are pushed on. For loaded contacts that holds from the second sweep on: pushing the
+// contacts of a pile for less opens some of them in every step, and each lost load starts a tremor.
 inline constexpr int shallow_push_sweeps = 32;
 inline constexpr double deep_overlap = 5e-3;
 inline double overlap_to_push(int sweep, bool loaded) {
@@ -53,8 +52,8 @@ inline int push_sweeps(const StepRules& rules) {
   return rules.settles ? most_pile_push_sweeps : most_push_sweeps;
 }
 
-// keep_inside leaves disks in a wall by shallow_overlap of their radius. Are they deep? They are, at all sides of the
-// box alike: less than `share` by this is deep at a wall, or rounding would decide.
+// keep_inside leaves a disk in a wall by exactly shallow_overlap of its radius, so rounding would decide whether that
+// is deep. With this margin it counts as deep, at all sides of the box alike.
 inline constexpr double rounding_of_depth = 1e-6;
 
 // Is the overlap of a contact deeper than slack (length) by more than `share` of the sum of radii (of the radius, at a
@@ -69,8 +68,8 @@ bool is_deep(const View& d, const Domain& box, const ContactEvent& e, double sha
   return distance2_of(d, e.i1, e.i2, box) < reach * reach;
 }
 
-// Walls do not give way: a disk that others pushed into a wall deeper than shallow_overlap of its radius comes back,
-// and what overlap that makes is the next sweep's.
+// Walls do not give way: a disk that was pushed into a wall deeper than shallow_overlap of its radius is put back. If
+// that makes it overlap others, the next sweep pushes those.
 template <class View>
 void keep_inside(const View& d, const Domain& box, std::uint32_t i) {
   for (Side side : all_sides) {
@@ -82,9 +81,9 @@ void keep_inside(const View& d, const Domain& box, std::uint32_t i) {
   });
 }
 
-// What overlap remains beyond slack (length) is pushed apart along the line of centres, by mass, so that the centre of
-// mass, and with it momentum and potential energy, stays; velocities are not touched. Coincident centres part along x.
-// Neither is left in a wall.
+// Pushes two disks apart until they overlap by no more than slack (length): along the line of centres, in inverse
+// proportion to their masses, so that their centre of mass and with it the potential energy stays. Coincident centres
+// part along x. Neither disk is left in a wall.
 template <class View>
 void push_pair(const View& d, const Domain& box, std::uint32_t i, std::uint32_t j, double slack) {
   const Relative r = relative(d, i, j, box);

@@ -1,6 +1,6 @@
-// What a step does with the contacts it found: collide them in order of contact. What overlap remains is pushed apart
-// (push_apart.hpp). Called by the reference on the whole sorted list, by the engine on independent parts of it. Formula
-// (23) and faults F3, F8, F11: docs/original.md.
+// The collisions of a step: the contacts that it found, resolved in the order in which they began. Overlap that remains
+// is pushed apart (push_apart.hpp). The reference calls this on the whole sorted list, the engine on independent parts
+// of it. Formula (23) and faults F3, F8, F11: docs/original.md.
 #pragma once
 
 #include <algorithm>
@@ -23,10 +23,11 @@
 
 namespace carom {
 
-// Adds to an impact, which two disks had as r says, what a sheared box wants to know. rows: boxes above the second disk
-// of the image that collided. momentum: along x, what the second disk gained. The image has that much more energy than
-// the disk itself. The stress is momentum along x that goes along y; rough disks, whose impulse is not along the line
-// of centres, may hand on another amount along y over their distance along x, which does no work.
+// Adds shear stress and work to the impact of two disks in a sheared box; r: their relative motion before it. rows: row
+// of the image of the second disk that collided (image_in_row). momentum: along x, gained by the second disk. Its image
+// moves faster by the jump of its row, and so gains jump times momentum more energy than the disk itself; the work of
+// the shear is less by that. The stress is the flow of x-momentum along y. The impulse of rough disks is not along the
+// line of centres, so the flow of y-momentum along x may differ; it does no work.
 inline void record_shear(PairImpact& impact, const Relative& r, int rows, double momentum, bool rough,
                          const Shear& shear) {
   impact.sheared = true;
@@ -34,7 +35,7 @@ inline void record_shear(PairImpact& impact, const Relative& r, int rows, double
   if (rows != 0) impact.shear_work -= (rows > 0 ? shear.jump : -shear.jump) * momentum;
 }
 
-// Disks i and j have just collided as r says; before: velocity along x of disk j until then.
+// The same for disks i and j. before: vx of disk j before the collision.
 template <class View>
 void record_shear_of(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t j, const Relative& r,
                      double before, PairImpact& impact) {
@@ -58,8 +59,8 @@ RoughDisk rough_disk(const View& d, std::uint32_t i) {
   return {d.radius(i), d.vx[i], d.vy[i], d.spin[i]};
 }
 
-// What rough disks do along their surfaces in the collision by which i and j, as r says before it, have just changed
-// the squared-distance rate by `change` (collide).
+// Friction between rough disks i and j that have just collided. r: their relative motion before; change: what collide()
+// returned.
 template <class View>
 void rub_pair(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t j, const Relative& r, Shares share,
               double change) {
@@ -69,7 +70,7 @@ void rub_pair(const View& d, const StepRules& rules, std::uint32_t i, std::uint3
   }
 }
 
-// Likewise of disk i and a wall, or an obstacle, that has just changed its velocity by `pressed` along this normal.
+// Friction between disk i and a wall or an obstacle that has just changed its velocity by `pressed` along this normal.
 template <class View>
 void rub_against(const View& d, const StepRules& rules, std::uint32_t i, Vec2 normal, Touching which, double pressed) {
   if constexpr (View::may_be_rough && !View::is_sheared) {
@@ -77,21 +78,21 @@ void rub_against(const View& d, const StepRules& rules, std::uint32_t i, Vec2 no
   }
 }
 
-// Along the disk's own path, back where t < 0.
+// Moves disk i along its own path; back if t < 0.
 template <class View>
 void drift_one(const View& d, std::uint32_t i, double t, const Gravity& g) {
   drift<true>(d.x[i], d.y[i], d.vx[i], d.vy[i], t, g);
 }
 
-// The pair goes back to its own contact, collides by (23), goes forward again. The state may have changed since the
-// contact was found: a pair that no longer overlaps or approaches is left alone (F3, F8). A contact older than the step
-// (an overlap left from before) collides where it is.
+// Moves the pair back to its contact, collides it by (23), and moves it forward again. The state may have changed since
+// the contact was found: a pair that no longer overlaps or approaches is left alone (F3, F8). A pair whose contact is
+// older than the step (an overlap left from before) collides where it is.
 template <class View>
 PairImpact resolve_pair(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t j) {
   Relative r = relative(d, i, j, rules.box);
   const double contact_distance = d.radius(i) + d.radius(j);
   if (!touches(r.distance2(), contact_distance) || !(r.approach() < 0.0)) return {};
-  // Disks that just touch and pass along each other may miss by rounding (touching_time is infinite): that is now.
+  // Disks that just touch and pass along each other may miss by rounding (touching_time is infinite): they collide now.
   const double ago = std::max(0.0, -touching_time(r, contact_distance));
   const bool inside_step = began_within(ago, rules.dt);
   if (inside_step) {
@@ -116,7 +117,7 @@ PairImpact resolve_pair(const View& d, const StepRules& rules, std::uint32_t i, 
   return impact;
 }
 
-// Bounces off the wall where it is, from the wall itself. Returns the change of speed.
+// Puts disk i back to the wall and lets it bounce there. Returns the change of speed.
 template <class View>
 double bounce_at_wall(const View& d, const StepRules& rules, std::uint32_t i, Side side) {
   const double r = d.radius(i);
@@ -134,7 +135,7 @@ double bounce_at_wall(const View& d, const StepRules& rules, std::uint32_t i, Si
   return speed + away;
 }
 
-// Disk i is reflected by a thermal side where it is.
+// Reflects disk i thermally, without moving it.
 template <class View>
 WallImpact reflect_at_side(const View& d, const StepRules& rules, std::uint32_t i, Side side) {
   const double before = outward_speed(side, d.vx[i], d.vy[i]);
@@ -151,8 +152,9 @@ WallImpact reflect_at_side(const View& d, const StepRules& rules, std::uint32_t 
   return {.impulse = d.mass(i) * (before - outward_speed(side, d.vx[i], d.vy[i])), .energy = heat, .happened = true};
 }
 
-// A disk that reaches beyond a thermal side and moves into it, at speed `speed`: reflected once, at its contact, or at
-// the side where that is older than the step. Where gravity brings it back within the step, it stays at the side.
+// A disk that reaches `beyond` past a thermal side and moves into it at `speed`. It is reflected once: at its contact,
+// or where it is if the contact is older than the step. If it is then still beyond the side (gravity may bring it back
+// within the step), it is put at the side.
 template <class View>
 WallImpact resolve_thermal_wall(const View& d, const StepRules& rules, std::uint32_t i, Side side, double beyond,
                                 double speed) {
@@ -170,7 +172,7 @@ WallImpact resolve_thermal_wall(const View& d, const StepRules& rules, std::uint
   return impact;
 }
 
-// Likewise for a side that moves, in its frame: back to the contact, and off the side.
+// A disk and a moving side, in the frame of the side: the disk goes back to the contact and bounces there.
 template <class View>
 WallImpact resolve_moving_wall(const View& d, const StepRules& rules, std::uint32_t i, Side side) {
   const SidePlace& place = rules.box.place(side);
@@ -202,9 +204,10 @@ WallImpact resolve_moving_wall(const View& d, const StepRules& rules, std::uint3
   return {.impulse = impulse, .energy = impulse * place.speed, .happened = change > 0.0, .inaccurate = late};
 }
 
-// Likewise for a disk and a wall (F11: position and velocity are both put right). A disk that gravity brings back to
-// the wall within the step, and one whose contact is older than the step, bounces at the step's end with the speed that
-// its energy allows: so a disk at rest on the floor stays at rest, and the lift gives it no energy.
+// A disk and a wall (F11: position and velocity are both corrected). The disk goes back to the contact and bounces
+// there. If gravity brings it back to the wall within the step, or its contact is older than the step, it bounces at
+// the step's end with the speed that its energy allows. So a disk at rest on the floor stays at rest, and lifting it to
+// the wall gives it no energy.
 template <class View>
 WallImpact resolve_wall(const View& d, const StepRules& rules, std::uint32_t i, Side side) {
   if (rules.box.moves(side)) return resolve_moving_wall(d, rules, i, side);
@@ -229,19 +232,19 @@ WallImpact resolve_wall(const View& d, const StepRules& rules, std::uint32_t i, 
   return {.impulse = d.mass(i) * change, .happened = change > 0.0, .inaccurate = late};
 }
 
-// Gives disk i the speed `change` more away from an obstacle.
+// Adds `change` to the speed of disk i away from an obstacle.
 template <class View>
 void kick_away(const View& d, std::uint32_t i, const ObstacleGap& gap, double change) {
   d.vx[i] += change * gap.nx;
   d.vy[i] += change * gap.ny;
 }
 
-// Bounces off the obstacle where it is, from the obstacle's edge: as bounce_at_wall. Returns the change of speed.
+// As bounce_at_wall: puts disk i back to the obstacle's edge and lets it bounce there. Returns the change of speed.
 template <class View>
 double bounce_at_obstacle(const View& d, const StepRules& rules, std::uint32_t i, const Obstacle& o) {
   const ObstacleGap gap = gap_to(o, d.x[i], d.y[i], d.radius(i), rules.box);
   const double speed = speed_towards(gap, d.vx[i], d.vy[i]);
-  // What lifting it by gap.beyond along the normal costs is taken from its motion along the normal.
+  // Lifting the disk by gap.beyond along the normal costs kinetic energy of its motion along the normal.
   const double left = speed * speed - 2.0 * rules.gravity.against(gap.nx, gap.ny) * gap.beyond;
   const double there = std::sqrt(std::max(0.0, left));
   const double away = obstacle_restitution(d, rules, i, o, there) * there;
@@ -252,7 +255,7 @@ double bounce_at_obstacle(const View& d, const StepRules& rules, std::uint32_t i
   return speed + away;
 }
 
-// Likewise for a disk and an obstacle at rest.
+// As resolve_wall, for an obstacle at rest.
 template <class View>
 WallImpact resolve_resting_obstacle(const View& d, const StepRules& rules, std::uint32_t i, const Obstacle& o) {
   const auto gap_now = [&] { return gap_to(o, d.x[i], d.y[i], d.radius(i), rules.box); };
@@ -278,7 +281,7 @@ WallImpact resolve_resting_obstacle(const View& d, const StepRules& rules, std::
   return {.impulse = d.mass(i) * change, .happened = change > 0.0, .inaccurate = late};
 }
 
-// Likewise for an inner wall that moves, in its frame: there it rests where it is at the end of the step.
+// The same for a moving inner wall, in its frame: there the wall rests where it is at the end of the step.
 template <class View>
 [[gnu::noinline, gnu::cold]] WallImpact resolve_moving_wall(const View& d, const StepRules& rules, std::uint32_t i,
                                                             const Obstacle& o) {
@@ -322,10 +325,10 @@ Impact resolve_event(const View& d, const StepRules& rules, const ContactEvent& 
   return resolve_pair(d, rules, e.i1, e.i2);
 }
 
-// One pass over the contacts in order of time; then passes over the crowded ones, those of disks that have another
-// contact in this step, until a pass finds no pair that still touches and approaches, or after most_impact_passes. A
-// front of disks that pours onto a pile passes its momentum on by so many layers in a step; with one pass it would be
-// squeezed.
+// The first pass resolves all contacts in order of time. Further passes resolve the crowded ones (a disk of theirs has
+// another contact in this step), until a pass finds no pair that still touches and approaches, or after
+// most_impact_passes. Each pass hands the momentum of disks that pour onto a pile on by a layer; with a single pass
+// they would be squeezed.
 inline constexpr int most_impact_passes = 8;
 
 }  // namespace carom

@@ -1,4 +1,5 @@
-// The restitution of a contact: of two disks by number or by a RestitutionLaw, at walls and obstacles by theirs.
+// The restitution of a contact: two disks have a number or a RestitutionLaw, walls and obstacles have numbers of their
+// own.
 #pragma once
 
 #include <algorithm>
@@ -18,12 +19,12 @@
 namespace carom {
 
 // v^(1/5), from + - * / alone, so that its bits are the same everywhere; within a unit in the last place. With v = x
-// 2^(5 q), x in [1, 32), it is y 2^q, y^5 = x by Newton's iterations, always as many: 32^q v gives the bits of v, times
-// 2^q. Precondition: v >= 0 and finite.
+// 2^(5 q), x in [1, 32), the root is y 2^q, where y^5 = x is solved by a fixed number of Newton iterations. So the root
+// of 32^q v has the bits of the root of v, times 2^q. Precondition: v >= 0 and finite.
 inline double fifth_root(double v) {
   if (v == 0.0) return 0.0;
   double unit = 1.0;
-  if (v < 0x1p-1000) {  // also what has no leading bit
+  if (v < 0x1p-1000) {  // denormal numbers too
     v *= 0x1p+200;
     unit = 0x1p-40;
   }
@@ -44,14 +45,14 @@ inline double fifth_root(double v) {
   return y * power_of_two(q) * unit;
 }
 
-// Of two disks (or a disk and a fixed one) that approach along the line of centres at this speed; length / time, >= 0.
-// With a viscosity this is the leading order of viscoelastic spheres (Schwager and Poeschel 1998).
+// Restitution of two disks (one may be fixed) that approach along the line of centres at this speed; length / time, >=
+// 0. With a viscosity it is the leading order of viscoelastic spheres (Schwager and Poeschel 1998).
 inline double restitution_at(const Restitution& r, double speed) {
   if (r.viscosity == 0.0) return r.least;
   return std::max(r.least, 1.0 - r.viscosity * fifth_root(speed));
 }
 
-// Along the line of centres; length / time. Preconditions: distance2() > 0, approach() <= 0.
+// Speed of approach along the line of centres; length / time. Preconditions: distance2() > 0, approach() <= 0.
 inline double speed_of_approach(const Relative& r) {
   return -r.approach() / std::sqrt(r.distance2());
 }
@@ -59,8 +60,7 @@ inline double speed_of_approach(const Relative& r) {
 // Rules: StepRules or ExactRules, which have the number `restitution`, `law` (null where the number is all), `surfaces`
 // (null where all are smooth) and `box`.
 
-// Calls kernel(view) with a view whose type says whether disks are rough or the box is sheared, and whether there is a
-// law. No box with rough disks is sheared.
+// Calls kernel(view) with the view type for these rules: sheared, rough, under a law or plain (ContactKind).
 template <class Rules, class Kernel>
 decltype(auto) with_view(Disks& d, const Rules& rules, Kernel&& kernel) {
   if (rules.box.shear.acts()) return with_view<ContactKind::sheared>(d, kernel);
@@ -68,7 +68,7 @@ decltype(auto) with_view(Disks& d, const Rules& rules, Kernel&& kernel) {
   return rules.law == nullptr ? with_view(d, kernel) : with_view<ContactKind::under_law>(d, kernel);
 }
 
-// Of disks i and j, which approach as r says.
+// Restitution of disks i and j, whose relative motion is r.
 template <class View, class Rules>
 double pair_restitution(const View& d, const Rules& rules, std::uint32_t i, std::uint32_t j, const Relative& r) {
   if constexpr (View::may_have_law) {
@@ -79,15 +79,15 @@ double pair_restitution(const View& d, const Rules& rules, std::uint32_t i, std:
   return rules.restitution;
 }
 
-// Under a law, which holds for fixed disks as for others: of the disk with this id and an obstacle that it approaches
-// at this speed (length / time). Precondition: rules.law is not null.
+// Restitution of the disk with this id at an obstacle that it approaches at this speed (length / time), under a law,
+// which holds for fixed disks as for others. Precondition: rules.law is not null.
 template <class Rules>
 double restitution_under_law(const Rules& rules, DiskId id, const Obstacle& o, double speed) {
   if (o.is_segment()) return o.restitution;
   return restitution_at(rules.law->of(rules.restitution, id, o.id), speed);
 }
 
-// Of disk i and an obstacle that it approaches at this speed; length / time.
+// Restitution of disk i at an obstacle that it approaches at this speed; length / time.
 template <class View, class Rules>
 double obstacle_restitution(const View& d, const Rules& rules, std::uint32_t i, const Obstacle& o, double speed) {
   if constexpr (View::may_have_law) {
@@ -96,33 +96,34 @@ double obstacle_restitution(const View& d, const Rules& rules, std::uint32_t i, 
   return o.restitution;
 }
 
-// Of a contact with a wall or an obstacle, without a law.
+// Restitution at a wall or an obstacle, without a law.
 inline double restitution_of_wall(const Domain& box, DiskId partner) {
   return is_obstacle(partner) ? (*box.obstacles)[obstacle_of(partner)].restitution
                               : box.restitution(wall_side(partner));
 }
 
-// The id of the disk, fixed or not, that a contact is with; nothing for a wall. partner: as in ContactEvent::id2.
+// The id of the disk, fixed or not, that stands behind a contact's partner; nothing for a wall. partner:
+// ContactEvent::id2.
 inline std::optional<DiskId> other_disk(const Domain& box, DiskId partner) {
   if (!is_wall(partner)) return partner;
   if (!is_obstacle(partner) || (*box.obstacles)[obstacle_of(partner)].is_segment()) return {};
   return (*box.obstacles)[obstacle_of(partner)].id;
 }
 
-// May a contact of the disk with this id lose energy? partner: as in ContactEvent::id2.
+// May a contact of the disk with this id lose energy? partner: ContactEvent::id2.
 template <class Rules>
 bool may_lose_energy(const Rules& rules, DiskId id, DiskId partner) {
   const std::optional<DiskId> other = other_disk(rules.box, partner);
   if (rules.surfaces != nullptr) {
-    const bool thermal =
-        is_wall(partner) && !is_obstacle(partner) && rules.box.is_thermal(wall_side(partner));  // draws, rubs nothing
+    const bool thermal = is_wall(partner) && !is_obstacle(partner) &&
+                         rules.box.is_thermal(wall_side(partner));  // it draws velocities and has no friction
     if (!thermal && rules.surfaces->of(other ? Touching::disks : Touching::wall).dissipates()) return true;
   }
   if (rules.law != nullptr && other) return rules.law->of(rules.restitution, id, *other).least < 1.0;
   return (is_wall(partner) ? restitution_of_wall(rules.box, partner) : rules.restitution) < 1.0;
 }
 
-// The same of a contact found, in a step.
+// The same for a contact found in a step.
 template <class View, class Rules>
 bool may_lose_energy(const View&, const Rules& rules, const ContactEvent& e) {
   if constexpr (View::may_have_law) {

@@ -1,6 +1,6 @@
-// What a collision does along the surfaces of rough disks: Walton's rule with three parameters (O. R. Walton in
-// Particulate Two-Phase Flow, 1993; Luding, Huthmann, McNamara, Zippelius, Phys. Rev. E 58, 3416, 1998).
-// The normal impulse is that of disk_pair.hpp and boundary.hpp; what stands here comes on top of it, in every method.
+// Friction in a collision of rough disks: Walton's rule with three parameters (O. R. Walton in Particulate Two-Phase
+// Flow, 1993; Luding, Huthmann, McNamara, Zippelius, Phys. Rev. E 58, 3416, 1998). The normal impulse is that of
+// disk_pair.hpp and boundary.hpp; the tangential one comes on top of it, in every method.
 #pragma once
 
 #include <cmath>
@@ -10,10 +10,10 @@
 
 namespace carom {
 
-// The tangential impulse over the reduced mass; length / time. slip: velocity of one surface along the other before
-// the collision; pressed: the normal impulse over the reduced mass, >= 0. inertia: I / (m r^2), q. A change k of the
-// relative velocity changes the slip by k (1 + 1 / q), since both surfaces give way: sticking, it is to become
-// -restitution slip. Coulomb's law bounds it by friction pressed; then the contact slides.
+// The tangential impulse over the reduced mass; length / time. slip: velocity of one surface along the other before the
+// collision; pressed: the normal impulse over the reduced mass, >= 0. inertia: q = I / (m r^2). An impulse k changes
+// the slip by k (1 + 1 / q), since it changes the spins too. A sticking contact turns the slip into -restitution slip.
+// Coulomb's law bounds the impulse by friction times pressed; at that bound the contact slides.
 inline double rub(const Roughness& surface, double inertia, double slip, double pressed) {
   const double sticking = (1.0 + surface.restitution) * (inertia / (1.0 + inertia)) * slip;
   // Infinite friction times no impulse would be no number.
@@ -31,9 +31,9 @@ struct RoughDisk {
   double& spin;  // angular velocity, counter-clockwise; 1 / time
 };
 
-// Disks a and b have just collided (collide, which returned `change`); r is how they met. With n from a to b and t at a
-// right angle to it, on the left, the slip is dv.t - (r_a w_a + r_b w_b). Momentum stays, and angular momentum where
-// the centres are r_a + r_b apart.
+// Disks a and b have just collided; r: their relative motion before, change: what collide() returned. With n from a to
+// b and t at a right angle to it, on the left, the slip is dv.t - (r_a w_a + r_b w_b). Momentum is conserved; angular
+// momentum too if the centres are r_a + r_b apart.
 inline void rub_disks(const Surfaces& surfaces, const Relative& r, Shares share, double change, RoughDisk a,
                       RoughDisk b) {
   const double distance = std::sqrt(r.distance2());
@@ -52,8 +52,8 @@ inline void rub_disks(const Surfaces& surfaces, const Relative& r, Shares share,
   b.spin -= k2 / (surfaces.inertia * b.radius);
 }
 
-// Disk a has just bounced off what does not move along its surface: a wall, or an obstacle, of which n is the unit
-// vector towards the disk. pressed: by how much that has changed its velocity, >= 0.
+// Disk a has just bounced off a wall or an obstacle, whose surface does not move along itself. n: unit vector from it
+// towards the disk. pressed: the change of the disk's velocity along n, >= 0.
 inline void rub_wall(const Roughness& surface, double inertia, Vec2 n, double pressed, RoughDisk a) {
   const double slip = (a.vy * n.x - a.vx * n.y) - a.radius * a.spin;
   const double k = rub(surface, inertia, slip, pressed);

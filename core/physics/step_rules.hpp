@@ -1,4 +1,4 @@
-// What resolving a contact needs to know of a step, and what it says of the contact.
+// Input and output of resolving a contact: the rules of a step, and the impact of a contact.
 #pragma once
 
 #include <cstdint>
@@ -21,31 +21,31 @@ struct StepRules {
   bool settles = false;                   // gravity acts and a contact dissipates: contacts may bear load (resting.hpp)
   std::uint64_t seed = 0;                 // with thermal sides
   std::uint32_t* thermal_hits = nullptr;  // State::thermal_hits; a disk in contact changes its own
-  int round = 0;  // of resolving within the step; later ones find what the one before pressed together
-  const RestitutionLaw* law = nullptr;  // of disks, where `restitution` is not all
-  const Surfaces* surfaces = nullptr;   // where disks are rough
+  int round = 0;                          // number of the round of finding and resolving contacts within the step
+  const RestitutionLaw* law = nullptr;    // of disks, where `restitution` is not all
+  const Surfaces* surfaces = nullptr;     // where disks are rough
 };
 
-// What became of a contact of two disks.
+// The outcome of a contact of two disks.
 struct PairImpact {
   double virial = 0.0;  // |impulse| x distance of the centres; mass length^2 / time
   bool happened = false;
   // Late, since the contact is older than the step; or made elastic by the TC model (exact).
   bool inaccurate = false;
   bool lost_energy = false;   // exact only
-  bool sheared = false;       // in a sheared box: there are these two
+  bool sheared = false;       // the box is sheared: the next two members are set
   double shear_virial = 0.0;  // virial nx ny, n from one centre to the other; mass length^2 / time
   double shear_work = 0.0;    // that the shear did, by crossings of exact too; mass length^2 / time^2
 };
 
-// What became of a contact of a disk and a side or an obstacle.
+// The outcome of a contact of a disk and a side or an obstacle.
 struct WallImpact {
   double impulse = 0.0;  // its size; mass length / time
   double energy = 0.0;   // from a thermal side, a wall that moves or a shear at a crossing; mass length^2 / time^2
   bool happened = false;
   bool inaccurate = false;   // as of two disks
   bool lost_energy = false;  // likewise
-  bool pushed = false;       // by an inner wall that moves: there is this one
+  bool pushed = false;       // by a moving inner wall: `momentum` is set
   Vec2 momentum{};           // that the wall gave; mass length / time
 };
 
@@ -56,7 +56,8 @@ inline bool has_happened(const Impact& impact) {
   return std::visit([](const auto& one) { return one.happened; }, impact);
 }
 
-// What an inner wall that moves at `velocity` did to a disk whose velocity it changed from `before` to (vx, vy).
+// Enters momentum and work of an inner wall with this velocity, which changed a disk's velocity from `before` to (vx,
+// vy).
 inline void record_push(WallImpact& impact, double mass, Vec2 velocity, Vec2 before, double vx, double vy) {
   impact.pushed = true;
   impact.momentum = {mass * (vx - before.x), mass * (vy - before.y)};

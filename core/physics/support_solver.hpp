@@ -1,8 +1,8 @@
-// The loads of all supports of a step, solved together: impulses that stop the approach of their disks and never pull.
-// A linear complementarity problem, symmetric and positive; solved by sweeps of projected Gauss and Seidel, forward and
-// back, from the loads of the step before (Catto 2005), accelerated by Nesterov's momentum (Mazhar, Heyn, Negrut and
-// Tasora 2015 for projected gradients; a cycle of sweeps stands for a step of the gradient here). A settled pile is a
-// fixed point: its loads cancel gravity exactly.
+// The loads of all supports of a step, solved together: impulses >= 0 that stop the approach of their disks. This is a
+// symmetric, positive linear complementarity problem. It is solved by projected Gauss-Seidel sweeps, forward and back,
+// which start from the loads of the step before (Catto 2005) and are accelerated by Nesterov's momentum (Mazhar, Heyn,
+// Negrut and Tasora 2015, for projected gradients; here a cycle of two sweeps takes the place of a gradient step). A
+// settled pile is a fixed point: its loads cancel gravity exactly.
 #pragma once
 
 #include <algorithm>
@@ -17,26 +17,26 @@
 
 namespace carom {
 
-// Cycles (a sweep forward and one back) are looked at now and then. They end when none of a cycle's impulses changed a
-// relative velocity by more than this times g dt, or times the largest change of the first cycle; or after so many:
-// what is left then is passed on to the next step with the loads. With fewer while disks land, overlaps grow (10^4
-// disks poured into a box 457 mean diameters high: 3.8 % with 12, 1.3 % with 24); with fewer at rest, tremors.
-inline constexpr int watched_cycles = 4;  // one in so many is; the numbers of cycles below are multiples of it
+// Every watched_cycles-th cycle (a sweep forward and one back) is checked for convergence. The cycles end when no
+// impulse changed a relative velocity by more than settled_change times g dt, or times the largest change of the first
+// cycle; or after resting_cycles, or landing_cycles where disks land. The remaining error goes on to the next step with
+// the loads. With fewer cycles while disks land, overlaps grow (10^4 disks poured into a box 457 mean diameters high:
+// 3.8 % with 12, 1.3 % with 24); with fewer at rest, piles tremble.
+inline constexpr int watched_cycles = 4;  // the numbers of cycles below are multiples of it
 inline constexpr double settled_change = 5e-4;
 inline constexpr int landing_cycles = 24;
 inline constexpr int resting_cycles = 12;
 // A change in the first cycle, in units of g dt, above which something lands.
 inline constexpr double landing_change = 4.0;
-// But where a change is left that would press disks together by more than this share of the sum of their radii in a
-// step, they go on up to most_cycles: a heap that lands on a tall pile is stopped by its foot, hundreds of layers
-// below.
+// While the last change would press disks together by more than this share of the sum of their radii in a step, cycles
+// go on, up to most_cycles: a heap that lands on a tall pile is stopped by its foot, hundreds of layers below.
 inline constexpr double pressing_share = 1e-3;
 inline constexpr int most_cycles = 256;
-// In a high pile that trembles they go on too, up to so many times its height in layers: a load passes on by a few
-// layers a cycle, and with too few of them a pile sways, which opens contacts and keeps it swaying. It trembles where a
-// cycle changes relative velocities by an amount between these, in units of g dt (root mean square, by the mass that
-// contacts feel); larger changes are those of disks that land. 10^5 disks 300 layers high still trembled with 0.1 in
-// place of 1.
+// In a high pile that trembles they go on too, up to cycles_a_layer times its height in layers: a load passes on by a
+// few layers in a cycle, and with too few cycles a pile sways, which opens contacts and keeps it swaying. A pile
+// trembles if a cycle changes relative velocities by between calm_change and trembling_change, in units of g dt (root
+// mean square, weighted by the effective mass of contacts); larger changes mean that disks land. 10^5 disks 300 layers
+// high still trembled with 0.1 in place of 1.
 inline constexpr double cycles_a_layer = 0.2;
 inline constexpr double calm_change = 3e-4;
 inline constexpr double trembling_change = 1.0;
@@ -50,15 +50,16 @@ struct Support {
   std::uint32_t i1, i2;       // where the disks are stored; twice the same for a wall
 };
 
-// What else there is of the supports of a step in some order, in columns.
+// The other columns of the supports of a step.
 struct SupportSet {
-  std::vector<double> impulse;           // accumulated, >= 0 after a sweep; mass length / time
-  std::vector<double> last;              // after the cycle before
-  std::vector<double> before;            // when a weighed cycle began; from its end on its part of the sum of squares
-  std::vector<double> ahead;             // of a weighed cycle: its part of CycleFigures::ahead
-  std::vector<double> counted;           // of it, in an earlier round of the step
+  std::vector<double> impulse;  // accumulated, >= 0 after a sweep; mass length / time
+  std::vector<double> last;     // after the cycle before
+  std::vector<double>
+      before;  // impulse at the start of a cycle under Watch::all; after it, its term of CycleFigures::square
+  std::vector<double> ahead;             // after a cycle under Watch::all: its term of CycleFigures::ahead
+  std::vector<double> counted;           // part of `impulse` that an earlier round of the step has counted
   std::vector<double> contact_distance;  // sum of radii (the radius, at a wall)
-  std::vector<Vec2> v, last_v;           // velocities of the disks in contact, by storage; after the cycle before
+  std::vector<Vec2> v, last_v;  // velocities of the disks in contact, by storage index; last_v: after the cycle before
 };
 
 inline bool is_wall_support(const Support& s) {
@@ -90,8 +91,8 @@ Support make_support(const View& d, const StepRules& rules, const ContactEvent& 
   return s;
 }
 
-// Begins the columns of support k, whose contact is e. force: what the contact bore in the step, or the round, before;
-// mass length / time^2.
+// Initialises the columns of support k, whose contact is e. force: that of the contact in the step, or the round,
+// before; mass length / time^2.
 template <class View>
 void begin_support(SupportSet& set, std::size_t k, const View& d, const StepRules& rules, const ContactEvent& e,
                    double force) {
@@ -100,7 +101,7 @@ void begin_support(SupportSet& set, std::size_t k, const View& d, const StepRule
   set.contact_distance[k] = is_wall(e.id2) ? d.radius(e.i1) : d.radius(e.i1) + d.radius(e.i2);
 }
 
-// Equal and opposite, so momentum is conserved to rounding; a wall takes its share away.
+// Equal and opposite changes of momentum, so that it is conserved to rounding; a wall does not move.
 inline void apply_impulse(Vec2* v, const Support& s, double impulse) {
   v[s.i1].x -= impulse * (s.nx * s.inverse1);
   v[s.i1].y -= impulse * (s.ny * s.inverse1);
@@ -110,8 +111,8 @@ inline void apply_impulse(Vec2* v, const Support& s, double impulse) {
   }
 }
 
-// A load acts all through the step, not at its end: the way that it moves the disks by, impulse dt / (2 m). So a pile
-// at rest stays where it is to rounding.
+// A load acts all through the step, not only at its end: it displaces the disks by impulse dt / (2 m). So a pile at
+// rest stays where it is to rounding.
 template <class View>
 void shift_by_load(const View& d, const Support& s, double impulse, double dt) {
   const double j = impulse * (0.5 * dt);
@@ -123,13 +124,13 @@ void shift_by_load(const View& d, const Support& s, double impulse, double dt) {
   }
 }
 
-// What support k, which is s, bore in this round: impulse (r1 + r2), the virial, or at a wall the impulse itself.
+// What support k bore in this round: impulse (r1 + r2), its virial, or at a wall the impulse itself. s: support k.
 inline double borne(const SupportSet& set, std::size_t k, const Support& s) {
   const double impulse = set.impulse[k] - set.counted[k];
   return is_wall_support(s) ? impulse : impulse * set.contact_distance[k];
 }
 
-// Takes so much off an impulse, but never more than there is; returns the change.
+// Reduces an impulse by `less`, but not below 0; returns the change.
 inline double change_impulse(double& impulse, double less) {
   const double before = impulse;
   impulse = std::max(0.0, before - less);
@@ -148,7 +149,7 @@ inline double relax(Vec2* v, const Support& s, double& impulse) {
   return change;
 }
 
-// How closely a cycle is watched. Few are: what is to be seen costs more than the sweeps.
+// Which figures of a cycle are computed. Few cycles compute all: the figures cost more than the sweeps.
 enum class Watch : std::uint8_t { nothing, largest, all };
 
 // What a cycle changed.
@@ -166,7 +167,7 @@ struct CycleFigures {
   }
 };
 
-// The part of support k, which is s, of the sweep forward, or back.
+// Support k's part of the sweep forward, and of the sweep back. s: support k.
 template <Watch watch>
 void relax_forward(SupportSet& set, std::size_t k, const Support& s, CycleFigures& figures) {
   if constexpr (watch == Watch::all) set.before[k] = set.impulse[k];
@@ -187,14 +188,15 @@ void relax_back(SupportSet& set, std::size_t k, const Support& s, CycleFigures& 
   }
 }
 
-// After a weighed cycle: the sums over supports begin to end.
+// After a cycle under Watch::all: adds the terms of supports [begin, end).
 inline void add_products(const SupportSet& set, std::size_t begin, std::size_t end, CycleFigures& figures) {
   figures.square.add({set.before.data() + begin, end - begin});
   figures.ahead.add({set.ahead.data() + begin, end - begin});
 }
 
-// On by momentum times what the last cycle and its extrapolation have changed. Impulses may become negative here: the
-// next cycle ends that. Velocities depend on impulses linearly, so that they go on likewise, disk by disk.
+// Extrapolates impulses by `momentum` times their change since the end of the cycle before. They may become negative
+// here; the next cycle corrects that. Velocities depend linearly on impulses, so they are extrapolated in the same way,
+// disk by disk.
 inline void extrapolate_impulses(SupportSet& set, std::size_t begin, std::size_t end, double momentum) {
   double* const impulses = set.impulse.data();
   double* const last = set.last.data();
@@ -213,7 +215,7 @@ inline void extrapolate_velocity(Vec2& v, Vec2& last, double momentum) {
   if (momentum != 0.0) v = {now.x + momentum * (now.x - before.x), now.y + momentum * (now.y - before.y)};
 }
 
-// What all supports bear and feel.
+// Sums over all supports, for calming_cycles.
 struct SupportTotals {
   ExactSum impulse;  // mass length / time
   ExactSum mass;     // effective
@@ -234,9 +236,10 @@ struct CalmingCycles {
   double square = 0.0;  // mass length^2 / time^2
 };
 
-// fall: g dt; square: what is left after the usual cycles. The height in layers is the mean load over the weight of a
-// disk: a pile of N disks has 2 N contacts (without friction it stands on no more), so that they feel together the mass
-// of the pile, and the sum of their loads times diameters, its virial, is its weight times its height.
+// fall: g dt; square: CycleFigures::square after the usual cycles. The height in layers is the mean load over the
+// weight of a disk. It follows from the totals, since a pile of N disks without friction has about 2 N contacts: their
+// effective masses, half a disk's each, add up to the mass of the pile, and the sum of load times diameter, the virial,
+// is its weight times its height.
 inline CalmingCycles calming_cycles(const SupportTotals& totals, double fall, double square) {
   const double mass = totals.mass.value();
   const double trembling = trembling_change * fall;
@@ -246,8 +249,7 @@ inline CalmingCycles calming_cycles(const SupportTotals& totals, double fall, do
   return {static_cast<int>(std::min(cycles_a_layer * layers, static_cast<double>(most_cycles))), calm * calm * mass};
 }
 
-// The first cycles are watched for supports that are settled from the start, or after one more; the others from time to
-// time.
+// The first two cycles are watched too, since supports may have settled from the start.
 inline Watch watch_in(int cycle) {
   return cycle % watched_cycles == 0 ? Watch::all : cycle <= 2 ? Watch::largest : Watch::nothing;
 }

@@ -1,6 +1,6 @@
-// The exact method's contact of a path with an inner wall that vibrates as a sine: come up to from the past, as that
-// with a side (swinging_side.hpp). A segment is convex, so that its distance from a disk grows by no less than what the
-// disk moves along the line that is the shortest one now.
+// The exact method: when a path touches an inner wall that vibrates as a sine. The search is that for a side
+// (swinging_side.hpp). A segment is convex, so its distance from a disk grows at least by the disk's displacement along
+// the present shortest line.
 #pragma once
 
 #include <cmath>
@@ -17,15 +17,15 @@ struct SwingingWall {
   SidePlace now;  // its pace, at the start of the path
 };
 
-// Unit vector along a line; 0 where that has no length.
+// Unit vector along a line; 0 if that has no length.
 inline Vec2 direction_of(const ShortestLine& s) {
   if (s.flat) return s.line;
   return s.distance > 0.0 ? Vec2{s.line.x / s.distance, s.line.y / s.distance} : Vec2{};
 }
 
-// Time until a disk touches the wall, >= 0; `HUGE_VAL` if that is after `span`. apart: of the disk and the wall in the
-// middle of its vibration. A disk that overlaps by rounding touches if it approaches; if not, when it has come back. A
-// sink takes a disk that touches it, wherever the disk moves.
+// Time until a disk touches the wall, >= 0; HUGE_VAL if that is after `span`. apart: of the disk from the wall in the
+// middle of its vibration. A disk that overlaps by rounding touches now if it approaches; otherwise when it has come
+// back. A sink takes a disk that touches it, even if the disk recedes.
 inline double time_to_swinging_wall(const SwingingWall& s, Vec2 apart, const PathSegment& p, double radius,
                                     const Gravity& g, double span) {
   const SideMotion& pace = s.motion.pace;
@@ -37,7 +37,7 @@ inline double time_to_swinging_wall(const SwingingWall& s, Vec2 apart, const Pat
     const double t = search.t;
     const Vec2 at{apart.x + (p.vx * t - 0.5 * g.left * (t * t)), apart.y + (p.vy * t - 0.5 * g.down * (t * t))};
     const Vec2 v{p.vx - g.left * t, p.vy - g.down * t};
-    // Where the wall never comes, one at rest that is thicker by its amplitude is as far.
+    // Where the wall never comes: fall freely to a wall at rest that is thicker by the amplitude.
     const ShortestLine middle = shortest_line(s.wall, at);
     if (const double clear = middle.distance - radius - reach; clear > 0.0) {
       const Vec2 n = direction_of(middle);

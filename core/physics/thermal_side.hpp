@@ -1,4 +1,5 @@
-// A side that is kept at a temperature: what reaches it leaves with the velocity of a gas behind a hole.
+// A side that is kept at a temperature: a disk that reaches it leaves with a velocity drawn from Maxwell's flux
+// distribution, as if a gas of that temperature flowed out of a hole in the wall.
 #pragma once
 
 #include <cmath>
@@ -10,11 +11,11 @@
 
 namespace carom {
 
-// Velocity of a disk that comes out of a hole in a wall.
+// A velocity drawn from the flux distribution.
 struct FluxVelocity {
   double away = 0.0;   // from the wall, > 0; length / time
   double along = 0.0;  // the wall
-  double more = 0.0;   // a standard normal deviate besides
+  double more = 0.0;   // one more standard normal deviate
 };
 
 // Maxwell's flux distribution: away from the wall the density is v exp(-v^2 / (2 s^2)) / s^2 (the root of the sum of
@@ -26,7 +27,7 @@ inline FluxVelocity flux_velocity(std::uint64_t seed, Stream stream, DiskId id, 
   return {scale * std::sqrt(a.x * a.x + a.y * a.y), scale * b.x, b.y};
 }
 
-// Disk `id` leaves a side with this velocity.
+// Sets the velocity of a disk that leaves this side.
 inline void leave_side(Side side, const FluxVelocity& v, double& vx, double& vy) {
   const bool vertical = side == Side::left || side == Side::right;
   const double away = side == Side::left || side == Side::bottom ? v.away : -v.away;
@@ -34,8 +35,8 @@ inline void leave_side(Side side, const FluxVelocity& v, double& vx, double& vy)
   vy = vertical ? v.along : away;
 }
 
-// What draws of thermal sides depend on: the seed, the disk, and how many such reflections it has had. So they are the
-// same in every engine, on any number of threads, whatever a step or a window is.
+// The draws of thermal sides depend on the seed, the disk and the number of its thermal reflections so far. So they are
+// the same in every engine, on any number of threads, with any step or window.
 struct ThermalDraw {
   std::uint64_t seed = 0;
   DiskId id = 0;
@@ -47,7 +48,7 @@ struct ThermalReflection {
   double deviate = 0.0;  // standard normal, of the same draw
 };
 
-// A disk of this mass that moves towards the side is reflected with a velocity drawn at this temperature.
+// Gives a disk of this mass, which moves towards the side, a velocity away from it drawn at this temperature.
 inline ThermalReflection reflect_thermally(Side side, double temperature, double mass, const ThermalDraw& draw,
                                            double& vx, double& vy) {
   const double before = vx * vx + vy * vy;
@@ -57,8 +58,8 @@ inline ThermalReflection reflect_thermally(Side side, double temperature, double
   return {0.5 * mass * ((vx * vx + vy * vy) - before), drawn.more};
 }
 
-// A thermal side whose surface is rough draws the spin anew, too: normal is a standard normal deviate. Returns the
-// energy that it gave to the rotation.
+// A rough thermal side draws the spin anew, too. normal: a standard normal deviate. Returns the energy given to the
+// rotation.
 inline double spin_thermally(double inertia, double temperature, double mass, double radius, double normal,
                              double& spin) {
   const double before = rotational_energy(inertia, mass, radius, spin);

@@ -13,8 +13,8 @@
 
 namespace carom {
 
-// A disk of radius r at (x, y): `deepest` becomes the deepest of itself and what that disk reaches beyond a wall side
-// or into an obstacle, over r. One that an inner sink is about to take may lie in an opening of a wall.
+// Raises `deepest` to the overlap of a disk of radius r at (x, y) with walls and solid obstacles, over r. A disk that
+// touches an inner sink is left out: it may lie in an opening of a wall.
 inline void raise_to_wall_overlap(double x, double y, double r, DiskId id, const Domain& box, Overlap& deepest) {
   if (touches_inner_sink(box, x, y, r)) return;
   for (Side side : all_sides) {
@@ -28,7 +28,7 @@ inline void raise_to_wall_overlap(double x, double y, double r, DiskId id, const
   });
 }
 
-// The deepest of disks [begin, end); size 0 where none reaches beyond.
+// The deepest wall overlap of disks [begin, end); size 0 if there is none.
 inline Overlap deepest_wall_overlap(const Disks& d, const Domain& box, std::size_t begin, std::size_t end) {
   Overlap deepest;
   for (std::size_t i = begin; i < end; ++i)
