@@ -6,7 +6,7 @@ namespace carom {
 
 namespace {
 
-// inertia: I / (m r^2), 0 of smooth disks.
+// inertia: I / (m r^2), 0 for smooth disks.
 double energy_of(const Disk& disk, double inertia, const Gravity& gravity) {
   const double kinetic = 0.5 * (disk.vx * disk.vx + disk.vy * disk.vy);
   return disk.mass * (kinetic + gravity.against(disk.x, disk.y)) +

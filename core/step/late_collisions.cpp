@@ -63,10 +63,10 @@ std::string late_at_walls_text(const Scene& scene, const State& state) {
 
 std::vector<std::string> few_inaccurate_warnings(const Scene& scene, const State& state) {
   std::vector<std::string> warnings;
-  // A few collisions that the TC model makes elastic are what it is for.
+  // The TC model is meant to make a few collisions elastic.
   if (scene.run.method == Method::exact) return warnings;
   const ValidityCounts& seen = state.validity;
-  // A single one may be of two disks that touch at the start, but for rounding, and hardly move.
+  // A single late collision may be that of two disks that touch at the start, up to rounding, and hardly move.
   if (!seen.inaccurate_told && seen.inaccurate > 1 &&
       exceeds(seen.inaccurate, collisions_watched(scene, state), largest_inaccurate_share)) {
     warnings.push_back(inaccurate_text(scene, state));

@@ -1,5 +1,6 @@
-// Collisions that time stepping sees a step late, or bounces at one moment with another of the same disk, and those
-// that the TC model makes elastic: what is said of them where they are more than their share (core/step/validity.hpp).
+// The warnings about inaccurate collisions, if their share is above its bound (core/step/validity.hpp): collisions that
+// time stepping resolves a step late, or at the same moment as another of the same disk, or that the TC model makes
+// elastic.
 #pragma once
 
 #include <string>
@@ -10,21 +11,23 @@
 
 namespace carom {
 
-// Is it a larger share of all?
+// Is inaccurate / all above this share?
 bool exceeds(Count inaccurate, Count all, double share);
 
-// The collisions of which some may be inaccurate.
+// The number of all collisions of the kind of which some may be inaccurate.
 Count collisions_watched(const Scene& scene, const State& state);
 
-// Exact as the other remedy, where it is one: with Brownian motion what a step draws is as coarse.
+// The words " or run.method = \"exact\"" for the end of a remedy; empty with Brownian motion, which the exact method
+// also draws once a step.
 const char* or_exact(const Scene& scene);
 
-// How many there were by now, why, and the remedy.
+// One line with their number so far, the cause and the remedy.
 std::string inaccurate_text(const Scene& scene, const State& state);
 std::string late_at_walls_text(const Scene& scene, const State& state);
 
-// What time stepping at a run's end has to say of those that are more than their share, but too few (least_inaccurate)
-// to have been told of on the way: of two collisions or more, and of any bounce off a wall.
+// For the end of a run of time stepping: the warnings about inaccurate collisions whose share is too large, but whose
+// number stayed too small (least_inaccurate) for a warning during the run. A single collision gives none; a single late
+// bounce off a wall does.
 std::vector<std::string> few_inaccurate_warnings(const Scene& scene, const State& state);
 
 }  // namespace carom

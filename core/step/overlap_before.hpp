@@ -1,4 +1,4 @@
-// How deep two disks lay in one another before a step: what its contacts are asked for, and no search.
+// The overlap that two disks in contact had before the step; it needs no search of its own.
 #pragma once
 
 #include <cmath>
@@ -9,8 +9,9 @@
 
 namespace carom {
 
-// How deep two disks overlapped when the step began: impacts of the step before may have brought them together that
-// were in no contact then. To be asked before anything is resolved, while the disks are on the paths of their drift.
+// Enters the overlap that disks i and j had when the step began: impacts of the step before may have pushed together
+// disks that were not in contact then. To be called before any contact is resolved, while the disks are on the paths of
+// their drift.
 template <class View>
 void note_overlap_before(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t j,
                          StepFigures& figures) {

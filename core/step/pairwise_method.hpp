@@ -1,5 +1,5 @@
-// The method `pairwise`: what a step consists of, in which order. Written once; the reference and the parallel engine
-// each bring the phases.
+// The method `pairwise`: the sequence of phases of a step. Written once; the reference and the parallel engine each
+// supply the phases.
 #pragma once
 
 #include <utility>
@@ -17,7 +17,7 @@ namespace carom {
 template <class Phases>
 class PairwiseMethod final : public Phases {
  public:
-  // rest: what else Phases is made from.
+  // rest: further arguments of the constructor of Phases.
   template <class... Rest>
   PairwiseMethod(const Scene& scene, State initial, const Rest&... rest)
       : Phases(scene, std::move(initial), rest...), clock_(make_step_clock(scene.run.dt, scene.run.t_end)) {}
@@ -27,7 +27,7 @@ class PairwiseMethod final : public Phases {
     if (k >= clock_.steps) return;
     check_crushed(scene_, state_);
     const double dt = clock_.length(k);
-    // Once only, even where parts() throws: the state that it leaves can be stepped again.
+    // Only once in a step, even if parts() throws: the state that is left can be stepped again.
     if (!std::exchange(state_.step_begun, true)) {
       start_interval(clock_.start(k), dt, k);
       kick_if_due();
@@ -69,10 +69,11 @@ class PairwiseMethod final : public Phases {
   using Phases::sort_if_due;
   using Phases::start_interval;
 
-  // A fast disk may cross them within a step; what goes beyond a side that is a sink stays there to its end.
+  // Inner sinks are tested after each part, since a fast disk may cross them within a step; a disk beyond a side that
+  // is a sink stays beyond it to the step's end.
   bool has_inner_sinks() const { return scene_.box.obstacles != nullptr && scene_.box.obstacles->has_sinks(); }
 
-  // Drift, find the overlaps, take each pair and wall in order of contact, push apart what remains; in a pile, again
+  // Drifts, finds the contacts, resolves them in order of contact and pushes remaining overlaps apart; in a pile again,
   // while that presses other disks together.
   StepFigures advance(StepRules rules) {
     sort_if_due();

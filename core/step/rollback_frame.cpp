@@ -28,7 +28,7 @@ void note_overlaps(Disks& disks, const StepRules& rules, const ContactEvent& e, 
 }
 
 bool is_at_a_distance(const StepRules& rules, const ContactEvent& e, double back) {
-  // Less than this share of the frame is the same moment but for rounding.
+  // Differences below this share of the frame are rounding.
   constexpr double same = 1e-9;
   return back - e.ago > same * rules.dt;
 }
@@ -49,7 +49,7 @@ double frame_limit(const Scene& scene, const State& state, const StepClock& cloc
 }
 
 double frame_length(double step, double left, double end) {
-  // Of all time; and of the frame, which may not be longer than is safe.
+  // Relative to the time; limited relative to the frame, which must not become longer than is safe.
   const double rounding = std::min(1e-12 * end, 1e-3 * step);
   return left - step <= rounding ? left : step;
 }

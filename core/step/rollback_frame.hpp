@@ -1,5 +1,5 @@
-// The parts of one rollback frame that are its own: which pairs it goes back for, how they bounce, and when it stalls.
-// Formula (23) and faults F1 to F11: docs/original.md.
+// The rules of a rollback frame that pairwise steps do not share: for which pairs it goes back, how they bounce, and
+// when it stalls. Formula (23) and faults F1 to F11: docs/original.md.
 #pragma once
 
 #include <cstdint>
@@ -18,16 +18,16 @@
 
 namespace carom {
 
-// Is the event a pair of disks that approaches (F8)? Walls do not make the system go back.
+// Is the event that of two approaching disks (F8)? Only those make the system go back; walls do not.
 bool is_met(Disks& disks, const StepRules& rules, const ContactEvent& event);
 
-// The overlaps that a contact of the frame shows, while all disks are where they drifted to: of a pair that is met,
-// what it had when the frame began, as a wall may have sent one disk into the other (F11); of any other pair that of
-// now, which nothing in the frame will see to. None of a wall.
+// Enters the overlap of a contact of two disks, while all disks are where they drifted to. If the pair is met, the
+// overlap when the frame began, since a wall may have pushed one disk into the other (F11); otherwise the present
+// overlap, which the frame will not resolve. Contacts with walls are left out.
 void note_overlaps(Disks& disks, const StepRules& rules, const ContactEvent& event, bool met, StepFigures& figures);
 
-// A pair found bounces by (23) where it is now, if it still approaches: with the velocities of the moment, not copies
-// (F3). A pair that has not yet touched bounces at a distance: F2, kept.
+// Bounces a pair by (23) where it is now, if it still approaches: with its present velocities, not with copies (F3).
+// After the roll-back some pairs do not touch yet and bounce at a distance: fault F2, which the method keeps.
 template <class View>
 PairImpact bounce_pair(const View& d, const StepRules& rules, std::uint32_t i, std::uint32_t j) {
   const Relative r = relative(d, i, j, rules.box);
@@ -42,17 +42,17 @@ PairImpact bounce_pair(const View& d, const StepRules& rules, std::uint32_t i, s
   return impact;
 }
 
-// Had the pair met not yet touched, now that all disks have gone back by `back` (F2)? Where one of its disks bounces in
-// another pair as well, it might never have.
+// Does the pair bounce at a distance, because all disks went back by `back`, to before its contact (F2)? If one of its
+// disks bounces in another pair as well, the pair might never have touched.
 bool is_at_a_distance(const StepRules& rules, const ContactEvent& event, double back);
 
-// Every pair, in the order given; those that collide are added to log, where one is given.
+// Bounces every pair, in the order given. log: if not null, pairs that collide are added to it.
 void bounce_all(Disks& disks, const StepRules& rules, const std::vector<ContactEvent>& events, ImpactTally& tally,
                 CollisionLog* log = nullptr);
 
-// One disk and the walls and obstacles it reaches beyond: back to its contact, bounce, forward; what remains is pushed
-// inside (F11). An obstacle may hold a disk in another, or in a side: it raises `deepest`. No walls where an inner sink
-// is an opening, as in for_each_wall_contact.
+// Resolves the contacts of one disk with walls and obstacles: back to the contact, bounce, forward; then it is pushed
+// inside (F11). Where an obstacle keeps it inside another one or beyond a side, that overlap is entered in `deepest`.
+// No contact where an inner sink is an opening, as in for_each_wall_contact.
 template <class View>
 void meet_walls(const View& d, const StepRules& rules, std::uint32_t i, ImpactTally& tally, Overlap& deepest) {
   const double open = depth_of_opening(d, rules.box, i);
@@ -74,17 +74,17 @@ void meet_walls(const View& d, const StepRules& rules, std::uint32_t i, ImpactTa
   if (touched) raise_to_wall_overlap(d.x[i], d.y[i], d.radius(i), d.id[i], rules.box, deepest);
 }
 
-// Where the frame that starts at state.time must end: at t_end, or at the next draw of Brownian displacements.
+// The latest end of the frame that starts at state.time: t_end, or the next draw of Brownian displacements.
 double frame_limit(const Scene& scene, const State& state, const StepClock& clock);
 
-// How long a frame is that lasts `step`, with `left` of the time to where it must end: all of it, if what it left would
-// be rounding of the sum of frames. A frame of that would do what is due at a run's end, a kick or a source's disk, or
-// not, as rounding has it.
+// The length of a frame: `step`, but all of `left`, the time to its latest end, if no more than rounding would remain.
+// In a frame of such a length, rounding would decide whether a kick or a source's disk that is due at the end of the
+// run comes.
 double frame_length(double step, double left, double end);
 
 // F1: with many disks every frame goes back by nearly its whole length and time all but stops. A run whose last 10000
 // frames advanced time by less than one dt is stopped, with the figure and the remedy (PhysicsError). To be called
-// after every frame; what it remembers is in the state, so that a run that was interrupted stops at the same frame.
+// after every frame. It counts in the state, so that an interrupted run stops at the same frame.
 void check_stall(State& state, const Scene& scene);
 
 }  // namespace carom

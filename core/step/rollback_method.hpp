@@ -1,5 +1,5 @@
-// The method `rollback`: what a frame of the original's predictor-corrector consists of, in which order. Written once;
-// the reference and the parallel engine each bring the phases.
+// The method `rollback`: the sequence of phases of a frame of the original's predictor-corrector. Written once; the
+// reference and the parallel engine each supply the phases.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace carom {
 template <class Phases>
 class RollbackMethod final : public Phases {
  public:
-  // rest: what else Phases is made from.
+  // rest: further arguments of the constructor of Phases.
   template <class... Rest>
   RollbackMethod(const Scene& scene, State initial, const Rest&... rest)
       : Phases(scene, std::move(initial), rest...), clock_(make_step_clock(scene.run.dt, scene.run.t_end)) {}
@@ -66,7 +66,7 @@ class RollbackMethod final : public Phases {
   using Phases::sort_if_due;
   using Phases::start_interval;
 
-  // A frame may end before its Brownian interval does; the next one then goes on with the velocities drawn.
+  // A frame may end before its Brownian interval does; the next frame then keeps the velocities.
   void begin_frame() {
     if (scene_.physics.diffusion > 0.0) {
       if (state_.time < clock_.start(state_.intervals)) return;
@@ -78,7 +78,7 @@ class RollbackMethod final : public Phases {
     }
   }
 
-  // Steps 1 to 5 of the original's frame. Returns the time by which everything went back.
+  // Steps 1 to 5 of the original's frame. Returns the time by which all disks went back.
   double advance(StepRules rules, StepFigures& figures) {
     sort_if_due();
     drift(rules.dt);
@@ -101,7 +101,7 @@ class RollbackMethod final : public Phases {
     return back;
   }
 
-  // All has gone back by `back`, the walls that move with it.
+  // The rules after all disks, and moving walls, have gone back by `back`.
   StepRules gone_back(StepRules rules, double back) const {
     if (back < rules.dt) {
       rules.box.step_walls(state_.time, state_.time + (rules.dt - back));

@@ -24,10 +24,11 @@ Stream stream_of(Stream base, std::size_t source) {
   return static_cast<Stream>(static_cast<std::uint32_t>(base) + (static_cast<std::uint32_t>(source) << 8U));
 }
 
-// A sink takes what touches it: through one, a disk enters this share of its radius away from it.
+// A disk that enters through a sink starts this share of its radius away from it, since the sink takes disks that touch
+// it.
 constexpr double clear_of_sink = 0x1p-20;
 
-// box: with its sides where they are.
+// box: with its sides at their present places.
 void draw_place(const Domain& box, const Source& source, const TwoUniforms& u, Disk& disk) {
   if (!source.side) {
     disk.x = source.region_low.x + (source.region_high.x - source.region_low.x) * u.a;
@@ -47,8 +48,8 @@ void draw_place(const Domain& box, const Source& source, const TwoUniforms& u, D
   disk.y = vertical ? along : across;
 }
 
-// Velocity in terms of the inward normal and the tangent of the side; a region has no inward direction. speed: of the
-// side, towards the inside; the disk comes in in its frame.
+// The velocity has components along the inward normal and the tangent of the side; a region has no inward direction.
+// speed: of the side, towards the inside; the velocity is drawn in its frame.
 void draw_velocity(const Scene& scene, const Source& source, std::size_t index, Count step, double speed, Disk& disk) {
   const Stream stream = stream_of(Stream::source_velocity, index);
   Vec2 v;
@@ -83,7 +84,7 @@ void draw_velocity(const Scene& scene, const Source& source, std::size_t index, 
   }
 }
 
-// Precondition: the disk has its size.
+// Precondition: the disk's radius and mass are set.
 void draw_spin(const Scene& scene, const Source& source, std::size_t index, Count step, Disk& disk) {
   const SpinLaw& law = source.spins;
   disk.spin = law.value;
@@ -92,14 +93,14 @@ void draw_spin(const Scene& scene, const Source& source, std::size_t index, Coun
   disk.spin = scale * normals(scene.seed, stream_of(Stream::source_spin, index), disk.id, step).x;
 }
 
-// Is the whole disk inside every side that is not periodic, and clear of every sink and obstacle? A region may reach
-// closer to a side than a radius. By more than rounding of inner sinks: one along the side that the disk comes through
-// would take it at once.
+// Is the whole disk inside every side that is not periodic, and clear of every sink and obstacle? (A region may reach
+// closer to a side than a radius.) Inner sinks must be further away than rounding: one along the side through which the
+// disk enters would take it at once.
 bool inside(const Domain& box, const Disk& d) {
   for (const Side side : all_sides) {
     if (box.side(side) == SideKind::sink && reach_beyond(side, d.x, d.y, d.radius, box) >= 0.0) return false;
   }
-  // A disk of a region that touches a wall in decimals is inside.
+  // A disk that touches a wall when written in decimals counts as inside.
   const double slack = place_slack(box, d.radius);
   const auto touching = [&](Side side) { return touching_coordinate(side, d.radius, box); };
   const bool x = box.periodic_x() || (d.x >= touching(Side::left) - slack && d.x <= touching(Side::right) + slack);
@@ -138,7 +139,7 @@ bool has_room(const Disks& d, const Domain& box, const Disk& newcomer) {
 
 namespace {
 
-// Puts the disk, drawn with its first place, where it has room; false if it has none where it is tried.
+// Moves the disk, which has its first place, to the first place with room; false if none of the places has room.
 bool find_place(const Scene& scene, const Domain& box, std::size_t index, Count step, const PlacesTried& places,
                 const std::function<bool(const Disk&)>& room, Disk& disk) {
   const Stream stream = stream_of(Stream::source_place, index);
@@ -182,7 +183,7 @@ double emission_time(double rate, Count k) {
   return static_cast<double>(k) / rate;
 }
 
-// rate * t alone may be rounded below the whole number that it should be.
+// rate * t may be rounded to below the whole number that it should be.
 Count emissions_due(double rate, double t) {
   auto k = static_cast<Count>(std::max(0.0, std::floor(rate * t)));
   while (k > 0 && emission_time(rate, k) > t) --k;

@@ -37,8 +37,8 @@ inline StepClock make_step_clock(double dt, double t_end) {
   return clock;
 }
 
-// A step is over, of which its disks were there for so long all together. The sum is Kahan's, so that millions of steps
-// round it no more than one does.
+// Counts a step. disk_time: the time that its disks spent in the box, summed over disks. The total is a Kahan sum, so
+// that millions of steps round it no more than one does.
 inline void count_step(Counters& c, double disk_time) {
   ++c.steps;
   const double more = disk_time - c.disk_time_excess;
@@ -47,8 +47,8 @@ inline void count_step(Counters& c, double disk_time) {
   c.disk_time = sum;
 }
 
-// A step of this length, in which disks leave half-way. before, after: how many there were at its start, its sources'
-// among them, and are at its end.
+// Counts a step of this length; disks that leave are taken to do so half-way. before, after: numbers of disks at its
+// start, newly emitted ones included, and at its end.
 inline void count_step(Counters& c, Count before, Count after, double length) {
   count_step(c, 0.5 * length * static_cast<double>(before + after));
 }
@@ -58,7 +58,7 @@ inline void count_step(Counters& c, Count before, Count after, double length) {
 // parts, larger misses glancing hits (their share grows with the square of the travel).
 inline constexpr double safe_travel = 0.5;
 
-// The dt with linear dt + square dt^2 = limit, each of these >= 0; infinite where neither term exists.
+// The dt with linear dt + square dt^2 = limit, for coefficients >= 0; infinite if both are 0.
 inline double step_within(double limit, double linear, double square) {
   return 2.0 * limit / (linear + std::sqrt(linear * linear + 4.0 * square * limit));
 }

@@ -1,6 +1,6 @@
-// When the contacts of a settling step are searched for and resolved again. A disk that an impact sends on, or that
-// makes room for another, may run into a third that had no contact when the step's contacts were found; in a pile the
-// third has nowhere to go, and left for the next step it would be squeezed.
+// When the contacts of a settling step are searched for and resolved again. A disk that is knocked on or pushed aside
+// may run into a third disk that had no contact when the step's contacts were found. In a pile that third disk cannot
+// give way, and if it had to wait for the next step it would be squeezed.
 #pragma once
 
 #include "core/disks/disk_view.hpp"
@@ -10,26 +10,25 @@
 
 namespace carom {
 
-// Rounds of searching and resolving in a step, the first included. A front that lands on a loose layer passes on by one
-// disk a round. Few steps take more than two; 10^4 disks of radii 1 : 10 that landed at the longest safe step
-// overlapped by up to 3.0 % with 8 at most, and by 1.5 % with 32.
+// The most rounds of searching and resolving in a step, the first included. The front of an impact on a loose layer
+// moves on by one disk in a round. Few steps take more than two rounds; 10^4 disks of radii 1 : 10 that landed at the
+// longest safe step overlapped by up to 3.0 % with 8 rounds, and by 1.5 % with 32.
 inline constexpr int most_rounds = 32;
 
-// A disk that resolving moved by less than this share of its radius, from where the round's search saw it, makes no
-// overlap worth another round.
+// A disk that a round moved by less than this share of its radius needs no other round.
 inline constexpr double displaced_share = 0.005;
 
-// Overlap, over the sum of radii (over the radius, at a wall), that is too much to be left to the next step: half of
-// what a pile may have.
+// Overlap, over the sum of radii (at a wall, over the radius), above which a disk is pressed and another round follows:
+// half of what a pile may have.
 inline constexpr double pressed_overlap = 0.01;
 
-// Square of the way that resolving has moved disk i by from (x0, y0), where the search saw it; length^2.
+// Squared displacement of disk i from (x0, y0), its place in the round's search; length^2.
 template <class View>
 double displacement2(const View& d, const Domain& box, std::size_t i, double x0, double y0) {
   return nearest_distance2({d.x[i] - x0, d.y[i] - y0}, box);
 }
 
-// Was that far enough to meet others?
+// Was disk i moved far enough to meet others?
 template <class View>
 bool is_displaced(const View& d, const Domain& box, std::size_t i, double x0, double y0) {
   const double far = displaced_share * d.radius(i);

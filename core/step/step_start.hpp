@@ -18,8 +18,8 @@
 
 namespace carom {
 
-// Is there anything that gravity may press disks against? Without a side below them, fixed disks and inner walls they
-// fall for ever, or out of the box, and fly among each other as without gravity: nothing bears load.
+// Is there a wall or an obstacle against which gravity may press disks? Otherwise they fall for ever, or out of the
+// box, and no contact bears load.
 inline bool has_floor(const Scene& scene) {
   for (const Side side : all_sides) {
     const bool presses = outward_acceleration(side, scene.physics.gravity) > 0.0;
@@ -30,8 +30,8 @@ inline bool has_floor(const Scene& scene) {
          std::any_of(scene.groups.begin(), scene.groups.end(), is_obstacle);
 }
 
-// Contacts may bear load where gravity presses disks against something and something dissipates. Without dissipation no
-// pile ever rests.
+// May contacts bear load? For that gravity must press disks against something, and some contacts must dissipate:
+// without dissipation no pile comes to rest.
 inline bool settles(const Scene& scene) {
   if (!scene.physics.gravity.acts()) return false;
   const auto& walls = scene.box.restitutions;
@@ -46,26 +46,26 @@ inline StepRules rules_for(const Scene& scene, double dt) {
   return rules;
 }
 
-// The obstacles of a run in cells, scene.box.obstacles set to them; its walls are where they are at the time of the
-// state.
+// Makes the cells of a run's obstacles, with moving walls at the time of the state, and sets scene.box.obstacles to
+// them.
 inline std::unique_ptr<ObstacleCells> place_run_obstacles(Scene& scene, const State& state) {
   if (scene.box.inner_walls_move) scene.box.clock = {state.time, state.time};
   return place_obstacles(state.obstacles, scene.box, motions_of(scene));
 }
 
-// For parts_of_step: the speed that gravity adds in a step of length dt, and that of inner walls, which shall not jump
-// over a disk either, over the smallest radius; 1 / time.
+// For parts_of_step: the speed that gravity adds in a step of length dt, plus that of the fastest inner wall, which
+// must not jump over a disk either; over the smallest radius; 1 / time.
 inline double common_travel(const Scene& scene, double dt, double smallest_radius) {
   const double fall = scene.physics.gravity.size * dt / smallest_radius;
   return scene.box.inner_walls_move ? fall + fastest_inner_wall(scene) / smallest_radius : fall;
 }
 
-// With thermal sides: every disk that has an id has a count of its reflections.
+// With thermal sides: gives every id a count of thermal reflections.
 inline void count_thermal_hits(const Scene& scene, State& state) {
   if (scene.box.has_thermal_side()) state.thermal_hits.resize(state.next_id, 0);
 }
 
-// The rules of a step of this state, whose disks are all there.
+// The rules of a step from this state. Precondition: the disks of its sources have been emitted.
 inline StepRules rules_for(const Scene& scene, State& state, double dt) {
   StepRules rules = rules_for(scene, dt);
   count_thermal_hits(scene, state);
@@ -97,11 +97,11 @@ double largest_travel2(const View& d, std::size_t begin, std::size_t end) {
   return largest;
 }
 
-// The sink that Brownian disk i crosses, a side, during the coming step although both ends of its straight path are
-// inside; no_sink if none.
-// Probability exp(-d1 d2 / (D dt)) with its distances from the side before and after (a Brownian bridge); without it
-// the side would seem 0.5826 sqrt(2 D dt) further out. Compared through the logarithm, which is deterministic; a disk
-// so far off that the least number would not do needs none.
+// The side that is a sink and that Brownian disk i crosses during the coming step although both ends of its straight
+// path are inside; no_sink if none. The probability of a crossing is exp(-d1 d2 / (D dt)), with the distances d1, d2
+// from the side before and after (a Brownian bridge); without it the side would seem 0.5826 sqrt(2 D dt) further out.
+// It is compared by its logarithm, which is deterministic; for a disk so far off that no random number could be small
+// enough, none is drawn.
 template <class View>
 SinkNumber sink_crossed(const View& d, const Scene& scene, Count step, double dt, std::size_t i) {
   constexpr double below_any_log = -37.0;  // uniforms are 2^-53 or more, their logarithms -36.74
@@ -120,7 +120,7 @@ SinkNumber sink_crossed(const View& d, const Scene& scene, Count step, double dt
   return no_sink;
 }
 
-// The sink that disk i touches, of several that of the smallest number; no_sink if none.
+// The sink that disk i touches, the one of the smallest number if there are several; no_sink if none.
 template <class View>
 SinkNumber sink_touched(const View& d, const Domain& box, std::size_t i) {
   for (Side side : all_sides) {
@@ -130,7 +130,7 @@ SinkNumber sink_touched(const View& d, const Domain& box, std::size_t i) {
   return inner_sink_touched(box, d.x[i], d.y[i], d.radius(i));
 }
 
-// Is there anything that takes disks away?
+// Is a side or an obstacle a sink?
 inline bool has_sinks(const Domain& box) {
   return box.has(SideKind::sink) || (box.obstacles != nullptr && box.obstacles->has_sinks());
 }

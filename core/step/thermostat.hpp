@@ -1,4 +1,4 @@
-// Thermostats: what keeps disks at a temperature by kicks at times k dt, between which they fly and collide freely.
+// Thermostats: they keep disks at a temperature by kicks at times k dt, between which disks fly and collide freely.
 #pragma once
 
 #include <cmath>
@@ -22,23 +22,24 @@ inline double next_kick(const Scene& scene, const State& state) {
   return static_cast<double>(state.intervals) * kick_interval(scene);
 }
 
-// Times k dt are rounded, and so is that of the disks: by less than this share of them.
+// The relative rounding of the times k dt, and of the time of the disks, is less than this.
 inline constexpr double kick_rounding = 1e-12;
 
-// Is there another kick in the run? One that is due at its end, but for rounding, is not: nothing flies after it.
+// Is there another kick in the run? A kick that is due at its end, up to rounding, does not count: no motion follows
+// it.
 inline bool kicks_again(const Scene& scene, const State& state) {
   return scene.physics.thermostat.acts() && next_kick(scene, state) < (1.0 - kick_rounding) * scene.run.t_end;
 }
 
-// Is a kick due where a window, a step or a frame begins? Steps need not end at kicks: a kick is at the first step from
-// its time on, but for rounding.
+// Is a kick due at the start of this window, step or frame? Steps need not end at the times of kicks: a kick comes with
+// the first step that starts at its time or later, up to rounding.
 inline bool is_kick_due(const Scene& scene, const State& state) {
   return kicks_again(scene, state) && state.time >= (1.0 - kick_rounding) * next_kick(scene, state);
 }
 
-// What a kick does: v becomes kept v + sqrt(T / m) drawn r, r standard normal, where kept^2 + drawn^2 = 1, so that
-// Maxwell's distribution stays whatever dt is. Langevin's: kept = (1 - q) / (1 + q) with q = rate dt / 2, which is
-// e^(-rate dt) to second order and needs no exponential. Andersen's: (0, 1) for the share rate dt of the disks.
+// A kick changes v to kept v + sqrt(T / m) drawn r, r standard normal. As kept^2 + drawn^2 = 1, Maxwell's distribution
+// is stationary for any dt. Langevin: kept = (1 - q) / (1 + q) with q = rate dt / 2, which is e^(-rate dt) to second
+// order and needs no exponential. Andersen: kept 0, drawn 1, for the share rate dt of the disks.
 struct Kick {
   double kept = 1.0, drawn = 0.0;
 };
@@ -48,21 +49,20 @@ inline Kick langevin_kick(double rate, double dt) {
   return {(1.0 - q) / (1.0 + q), 2.0 * std::sqrt(q) / (1.0 + q)};
 }
 
-// Of the scene's thermostat, for the disks that it kicks.
+// The kick of the scene's thermostat.
 inline Kick kick_of(const Scene& scene) {
   const Thermostat& bath = scene.physics.thermostat;
   return bath.kind == Thermostat::Kind::andersen ? Kick{0.0, 1.0} : langevin_kick(bath.rate, kick_interval(scene));
 }
 
-// The share of the disks that a kick chooses: those whose number Stream::thermostat_choice draws, uniform from 0 to 1,
-// is below it.
+// The share of the disks that are kicked: those whose uniform number of Stream::thermostat_choice is below it.
 inline double kicked_share(const Scene& scene) {
   const Thermostat& bath = scene.physics.thermostat;
   return bath.kind == Thermostat::Kind::andersen ? bath.rate * kick_interval(scene) : 1.0;
 }
 
-// Kicks disk i, with the deviates r of Stream::thermostat; returns the energy that it is given. In a sheared box v is
-// relative to the flow, and the energy that of the laboratory.
+// Kicks disk i with the deviates r of Stream::thermostat; returns the energy that it gains. In a sheared box the kick
+// acts on the velocity relative to the flow, while the energy is that in the frame of the box.
 template <class View>
 double kick_disk(const View& d, const Scene& scene, const Kick& kick, std::size_t i, Vec2 r) {
   const double scale = kick.drawn * std::sqrt(scene.physics.thermostat.temperature / d.mass(i));
@@ -77,7 +77,7 @@ double kick_disk(const View& d, const Scene& scene, const Kick& kick, std::size_
   return 0.5 * d.mass(i) * ((d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]) - before);
 }
 
-// All of them one after another, if a kick is due.
+// Kicks the disks one after another, if a kick is due.
 inline void kick_if_due(const Scene& scene, State& state) {
   if (!is_kick_due(scene, state)) return;
   const Count number = state.intervals++;

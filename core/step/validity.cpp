@@ -20,7 +20,7 @@ namespace carom {
 
 namespace {
 
-// Is it more of them than the share allows, and enough for a share to mean anything?
+// Is the share too large, and the number large enough for a share to mean anything?
 bool are_many(Count inaccurate, Count all, double share) {
   return inaccurate > least_inaccurate && exceeds(inaccurate, all, share);
 }
@@ -30,7 +30,7 @@ std::string wall_name(const State& state, DiskId wall) {
   return fmt::format("{} wall", side_names[static_cast<std::size_t>(wall_side(wall))]);
 }
 
-// The deeper of the two, and what it says.
+// The line about the deeper of the two.
 std::string overlap_text(const Scene& scene, const State& state, const WorstOverlap& disks, const WorstOverlap& wall) {
   const bool of_disks = disks.overlap.size >= wall.overlap.size;
   const WorstOverlap& worst = of_disks ? disks : wall;
@@ -45,7 +45,7 @@ std::string overlap_text(const Scene& scene, const State& state, const WorstOver
       worst.time, what, 100.0 * largest_overlap, scene.run.dt, or_exact(scene));
 }
 
-// No overlap that an exact method may leave.
+// The line about an overlap beyond largest_exact_overlap.
 std::string missed_text(const State& state, const WorstOverlap& wall) {
   return fmt::format(
       "at time {:g} disk {} reaches {:.2g} % of its radius beyond the {}: a contact was missed, and what comes after "
@@ -59,7 +59,7 @@ std::string slow_text(const Scene& scene, const WorstFigure& advance, std::size_
       advance.time, advance.figure, disks, velocities_are_drawn(scene) ? "" : " or \"exact\"");
 }
 
-// dt: of the step, which may be cut short to end at t_end.
+// dt: length of the step, which may be cut at t_end.
 std::string split_text(double time, double dt, Count parts) {
   return fmt::format(
       "at time {:g} the fastest disk moves more than half its radius in dt = {:g}: the step is split into {} parts; a "
@@ -67,9 +67,8 @@ std::string split_text(double time, double dt, Count parts) {
       time, dt, parts);
 }
 
-// A step, over the period of a wall that vibrates. Time stepping has it move at its mean speed in a step: the mean
-// square of that is 4 % too low where a step is a tenth of the period, 25 % where it is a quarter, and 0 where it is a
-// half.
+// Longest step over the period of a vibrating wall. In time stepping the wall moves at its mean speed over each step;
+// the mean square of that speed is too low by 4 % if a step is a tenth of the period, by 25 % if it is a quarter.
 constexpr double largest_share_of_period = 0.1;
 
 // The shortest period of the walls that vibrate, sides and inner walls; HUGE_VAL if none does.
@@ -95,7 +94,7 @@ void Validity::note_split(State& state, double dt, Count parts) {
 void Validity::note_step(const Scene& scene, const StepFigures& figures, State& state) {
   const bool rollback = scene.run.method == Method::rollback;
   note_overlap(scene, figures, state);
-  // Supports keep a little overlap, so that a pile's impacts are often late without harm: its overlaps tell.
+  // Supports keep a little overlap, so impacts in a pile are often late without harm; a pile is judged by its overlaps.
   const bool pile = scene.run.method == Method::pairwise && settles(scene);
   if (figures.inaccurate > 0 && !pile) note_inaccurate(scene, figures.inaccurate, state);
   if (figures.inaccurate_at_walls > 0 && !pile) note_late_at_walls(scene, figures.inaccurate_at_walls, state);
@@ -206,7 +205,7 @@ std::vector<std::string> validity_warnings_at_start(const Scene& scene, double s
                     "smaller box or larger disks",
                     side, side * 0x1p-53 / smallest_radius));
   }
-  // Gravity and Brownian motion bring their own speeds.
+  // With gravity or Brownian motion the speeds at the start mean little.
   const bool steps =
       scene.run.method != Method::exact && scene.physics.diffusion == 0.0 && !scene.physics.gravity.acts();
   const double way = steps ? fastest * scene.run.dt : 0.0;

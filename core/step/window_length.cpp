@@ -9,11 +9,11 @@ namespace carom {
 
 namespace {
 
-// Events a disk a window: more of them, and all disks are advanced to a window's end less often; fewer, and the paths
-// that frames are read from stay short.
+// Events for each disk in a window. With more, disks are advanced to a window's end less often; with fewer, fewer paths
+// are stored.
 constexpr double events_per_disk = 2.0;
 constexpr double least_events = 32.0;
-// The distance to the neighbours, for the disk of root mean square speed.
+// Displacement of a disk of root mean square speed in the longest window, over the distance between neighbours.
 constexpr double longest_travel = 1.0;
 constexpr double few_disks = 64.0;
 constexpr double shortest_share = 1.0 / 512.0;
@@ -55,7 +55,8 @@ SpeedSummary summarise_speeds(const SpeedTally& tally, std::size_t disks) {
 }
 
 double longest_window(const Scene& scene, const SpeedSummary& speeds, std::size_t disks) {
-  // An inner wall goes by an eighth of the box at most: so its cells stay few, and its images in order.
+  // An inner wall moves by at most an eighth of the box in a window, so that it sweeps over few cells, and its images
+  // stay in order.
   const double wall = fastest_inner_wall(scene);
   const double wander = wall > 0.0 ? 0.125 * std::min(scene.box.width, scene.box.height) / wall : HUGE_VAL;
   if (disks == 0) return wander;
@@ -63,10 +64,10 @@ double longest_window(const Scene& scene, const SpeedSummary& speeds, std::size_
   const double spacing = std::sqrt(scene.box.width * scene.box.height / n);
   double side = wall;
   for (const SideMotion& motion : scene.box.motions) side = std::max(side, motion.largest_speed());
-  // The images above slide past by an eighth of the width at most (time_to_sheared_contact).
+  // The images above a sheared box slide by at most an eighth of the width (time_to_sheared_contact).
   const double slide = scene.box.shear.acts() ? 0.125 * scene.box.width / std::abs(scene.box.shear.jump) : wander;
-  // Falling through the spacing adds 2 g spacing to v^2; walls that move give their speed to disks at rest; a flow
-  // carries neighbours past each other, at the shear rate times their distance.
+  // A fall through the spacing adds 2 g spacing to v^2, moving walls give their speed to disks at rest, and a shear
+  // flow carries neighbours past each other at the shear rate times their distance.
   const double past = scene.box.shear.rate * spacing;
   const double speed = std::sqrt(speeds.mean2 + 2.0 * scene.physics.gravity.size * spacing + side * side + past * past);
   if (!(speed > 0.0)) return slide;

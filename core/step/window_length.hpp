@@ -1,5 +1,5 @@
-// How long the windows of the exact method are. Lengths follow from counts and speeds, the same in both engines, never
-// from clocks; they change how fast a run is, its physics only by rounding.
+// The lengths of the windows of the exact method. They follow from counts and speeds, never from clocks, and are the
+// same in both engines. They decide how fast a run is; its physics changes only by rounding.
 #pragma once
 
 #include <cstddef>
@@ -11,40 +11,41 @@
 
 namespace carom {
 
-// What the disks' speeds say. Neither depends on the order in which disks are added.
+// Sums over the speeds of disks; they do not depend on the order in which disks are added.
 struct SpeedTally {
   double largest2 = 0.0;  // v^2; length^2 / time^2
   ExactSum squares;       // of v^2, in a sheared box relative to the flow
 
-  // Disks [begin, end).
+  // Adds disks [begin, end).
   void add(const Disks& disks, const Domain& box, std::size_t begin, std::size_t end);
   void add(const SpeedTally& other);
 };
 
 struct SpeedSummary {
   double largest2 = 0.0;  // v^2; length^2 / time^2
-  double mean2 = 0.0;     // mean of v^2, relative to a flow; not finite where largest2 is not
+  double mean2 = 0.0;     // mean of v^2, in a sheared box relative to the flow; not finite if largest2 is not
 };
 
 SpeedSummary summarise_speeds(const SpeedTally& tally, std::size_t disks);
 
-// Longest window that pays: the typical disk crosses the distance to its neighbours, and 64 disks or fewer go
-// proportionally further, so that a window of two disks still holds some tens of events. Infinity when nothing moves.
+// The longest useful window: in it the typical disk moves by the distance between neighbours. Fewer than 64 disks move
+// proportionally further, so that a window of two disks still holds some tens of events. Infinity if nothing moves.
 double longest_window(const Scene& scene, const SpeedSummary& speeds, std::size_t disks);
 
-// The window after one that took `elapsed` and saw `events` (disk and wall): aims at two events a disk, and at 32 where
-// disks are few, by at most a factor of two at a time. window: the length that was meant before anything cut it short.
+// The length of the next window, after one of length `elapsed` with `events` events (disk and wall): aims at two events
+// for each disk, at least 32 in all, and changes by at most a factor of two. window: the planned length of the last
+// window, before it was cut.
 double next_window(double window, double elapsed, Count events, std::size_t disks);
 
-// `window` (0: the first one) kept within least_window and longest. A window that is longer than its events ask for
-// only holds more of them, so that inelastic collapse cannot shrink windows to nothing. Negative: a length below that,
-// since a longer window was crowded.
+// `window` (State::window, 0: the first one) clamped to [least_window, longest]. The lower bound only makes a window
+// hold more events than planned, and keeps inelastic collapse from shrinking windows to nothing. A negative window
+// stands for a length below least_window, used after a crowded window.
 double clamped_window(double window, double longest);
 double least_window(double longest);
 
-// A window is crowded when a disk begins more than most_paths_of_disk paths in it, or all disks together more than
-// most_paths; it is then made shorter. So every window ends, and the paths that frames are read from stay within 1.8 kB
-// a disk, or 4 MB.
+// A window is crowded if one disk begins more than most_paths_of_disk paths in it, or all disks together more than
+// most_paths; it is then begun again with a shorter length. So every window ends, and the stored paths, from which
+// frames are computed, need at most 1.8 kB for each disk, or 4 MB.
 inline constexpr std::uint32_t most_paths_of_disk = 1U << 15;
 Count most_paths(std::size_t disks);
 

@@ -17,20 +17,20 @@ namespace carom {
 
 namespace {
 
-// Mean length of so many crowded windows in a row, over the longest window that pays, below which the run would not end
-// for years. An elastic burst gets there only where a double no longer resolves it. The TC model's bursts do not end by
-// themselves: disks that stay in contact have a dozen collisions in each contact_time, for ever.
+// Mean length of enough_windows crowded windows in a row, over longest_window, below which the run would not end for
+// years. A burst of elastic collisions reaches that only if doubles can no longer resolve it. Under the TC model bursts
+// need not end: disks that stay in contact have a dozen collisions in each contact_time, for ever.
 constexpr Count enough_windows = 128;
 constexpr double least_pace = 0x1p-30;
 constexpr double least_pace_tc = 0x1p-20;
-// A wall that comes on makes disks without room faster and faster; their gaps are a millionth of what they were by
-// then, and each window takes longer to compute than the one before: fewer of them are waited for, where such walls
-// push disks. Where they do not, what crowds the windows is a burst like any other.
+// A wall that closes in on disks without room makes them faster and faster, and each window takes longer to compute
+// than the one before. So where moving walls push disks, fewer windows and a larger mean length are enough to stop the
+// run. If they do not push, the windows are crowded by a burst as anywhere else.
 constexpr double least_pace_moving = 0x1p-10;
 constexpr Count enough_windows_moving = 32;
 static_assert(enough_windows % enough_windows_moving == 0);
 
-// Is there anything that loses energy in collisions?
+// Can any collision lose energy?
 bool loses_energy(const Scene& scene) {
   return disks_dissipate(scene) || scene.box.walls_dissipate() || inner_walls_dissipate(scene) || walls_rub(scene);
 }
@@ -41,12 +41,12 @@ std::string partner_text(const Domain& box, DiskId id) {
                      : fmt::format("disk {}", id);
 }
 
-// Time does not get on past this event. Why that is follows from what kind of contact it is.
+// Throws the PhysicsError of a run whose time does not advance past this event; the kind of contact tells the reason.
 [[noreturn]] void fail_standstill(const ExactRules& rules, const EventMark& event, double start) {
   const bool rests = rules.gravity.acts() && dissipates(rules);
   if (!rules.tc() && (rests || may_lose_energy(rules, event.id1, event.id2))) fail_collapse(rules, event, start);
   if (rules.box.has_moving_wall()) {
-    // An elastic disk that starts at rest on a wall, in its frame, or that a source there sends in, stays on it.
+    // An elastic disk that starts at rest on a moving wall, or that a source on it emits, may stay on it.
     const bool may_rest = rules.gravity.acts();
     throw PhysicsError(fmt::format(
         "exact: time stands still at t = {}: disk {} and {} meet again and again at one moment; {}a wall that moves "
@@ -100,7 +100,7 @@ WindowPlan plan_window(const Scene& scene, const State& state, std::size_t disks
   plan.pace_moving = (plan.tc ? least_pace_tc : least_pace_moving) * longest * scale;
   const double cut = next_cut(scene, state);
   plan.end = state.time + plan.meant;
-  // As long as the clock says: late in a run its rounding is by far the largest of all.
+  // The length is the difference of the rounded times: late in a run their rounding is by far the largest.
   plan.length = plan.end - plan.start;
   if (!(plan.end < cut)) {
     plan.end = cut;
@@ -135,14 +135,14 @@ void finish_window(State& state, std::size_t disks, const WindowPlan& plan, cons
   const double meant = plan.meant / scale;
   const double next = next_window(meant, plan.length / scale, tally.collisions + tally.wall_collisions, disks);
   const double least = plan.least / scale;
-  // Below the least length windows grow again as soon as they are less crowded; they shrink where they are crowded.
+  // Below the least length, windows grow again as soon as they are less crowded, and do not shrink here (shortened).
   const bool stays_below = meant < least && std::max(next, meant) < least;
   state.window = stays_below ? -std::max(next, meant) : next;
 }
 
 namespace {
 
-// Have walls that move done work in this window, or given momentum?
+// Have moving walls done work or given momentum in this window?
 bool moving_walls_pushed(const Domain& box, const ImpactTally& tally) {
   const auto given = [](const ExactSum& sum) { return sum.value() != 0.0; };
   if (std::ranges::any_of(tally.pushes, given)) return true;
@@ -152,7 +152,7 @@ bool moving_walls_pushed(const Domain& box, const ImpactTally& tally) {
   });
 }
 
-// windows: so many in a row, which advanced time by `advanced`.
+// windows: their number; advanced: by how much they advanced time.
 [[noreturn]] void fail_slow(double time, Count windows, double advanced, const std::string& why) {
   throw PhysicsError(fmt::format(
       "exact: time all but stands still at t = {}: the last {} windows, as long as their events allow, advanced it by "
@@ -160,8 +160,8 @@ bool moving_walls_pushed(const Domain& box, const ImpactTally& tally) {
       time, windows, advanced, why));
 }
 
-// Where a wall that moves pushes disks all the while. Disks that land on one whose motion is a sine may come to rest
-// there and be seen hopping for ever; so may elastic ones that gravity presses against a wall from the start.
+// The reason if moving walls push disks. Disks that land on a wall with a sine motion may come to rest there, with hops
+// for ever; so may elastic disks that gravity presses against a wall from the start.
 std::string slow_at_moving_walls(const Scene& scene, const WindowPlan& plan, double time) {
   const bool collapses = !plan.tc && loses_energy(scene);
   const bool may_rest = !plan.tc && (collapses || scene.physics.gravity.acts());
@@ -175,8 +175,8 @@ std::string slow_at_moving_walls(const Scene& scene, const WindowPlan& plan, dou
       may_rest ? "use run.method = \"pairwise\", " : "");
 }
 
-// Where no wall that moves pushes. Coming to rest may look like this, too: not every collapse has a disk whose
-// collisions pile up within a share of a window that counts as no time.
+// The reason if no moving wall pushes disks. It may be a collapse: not in every collapse do the collisions of one disk
+// pile up within collapse_share of a window.
 std::string why_slow(const Scene& scene, const WindowPlan& plan) {
   if (plan.tc) {
     return "physics.collapse.contact_time is too short for disks that stay in contact: use a larger one, or "

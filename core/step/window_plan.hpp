@@ -1,4 +1,4 @@
-// One window of the exact method: where it lies in time.
+// One window of the exact method: its start, length and end, and the checks that time advances.
 #pragma once
 
 #include <cstddef>
@@ -14,39 +14,39 @@ namespace carom {
 struct WindowPlan {
   double start = 0.0;        // absolute time
   double length = 0.0;       // > 0
-  double end = 0.0;          // absolute time; a cut's own value where the window ends at one
+  double end = 0.0;          // absolute time; exactly that of the cut (next_cut) if the window ends at one
   double meant = 0.0;        // length before a cut shortened it
-  double least = 0.0;        // length below which windows go only after crowded ones
-  double pace = 0.0;         // mean length of windows below which time all but stands still
-  double pace_moving = 0.0;  // likewise where walls that move push disks
+  double least = 0.0;        // least length, except after a crowded window
+  double pace = 0.0;         // mean length of crowded windows below which time nearly stands still
+  double pace_moving = 0.0;  // the same where moving walls push disks
   bool tc = false;           // the TC model makes collisions elastic
   Count disks = 0;           // at its start
 };
 
-// Does the TC model make collisions elastic? Not where all are, whatever the scene says.
+// Does the TC model make collisions elastic? False if all are elastic anyway, even if the scene sets the model.
 bool has_tc(const Scene& scene);
 
-// start: of the window, when moving sides are where the rules say.
+// The rules of a window that starts at time `start`, with moving walls at their places then.
 ExactRules exact_rules(const Scene& scene, const Disks& disks, double start);
 
-// The window that starts at state.time, from state.window, the number of all disks (state may have only some of them)
-// and their speeds. scale: what tests multiply the lengths of windows by. Throws PhysicsError when time no longer
+// Plans the window that starts at state.time, from state.window, the number of all disks (state may hold only some of
+// them) and their speeds. scale: factor of the lengths of windows, for tests. Throws PhysicsError if time no longer
 // advances.
 WindowPlan plan_window(const Scene& scene, const State& state, std::size_t disks, const SpeedSummary& speeds,
                        double scale = 1.0);
 
-// What takes the place of a window that proved to be crowded (window_length.hpp) with event `last`: half the way to
-// that event. Throws PhysicsError where time cannot be divided any further.
+// The replacement of a window that became crowded (window_length.hpp) at event `last`: it ends half-way to that event.
+// Throws PhysicsError if time cannot be divided any further.
 WindowPlan shortened(const WindowPlan& plan, const ExactRules& rules, const EventMark& last);
 
-// The window is over: time, counters and the length meant for the next one. disks: how many there are now.
+// Ends a window: sets time, counters and the planned length of the next window. disks: their number now.
 void finish_window(State& state, std::size_t disks, const WindowPlan& plan, const ImpactTally& tally,
                    double scale = 1.0);
 
-// After finish_window: throws PhysicsError when a row of crowded windows has hardly advanced time.
+// To be called after finish_window: throws PhysicsError if a series of crowded windows has hardly advanced time.
 void check_pace(const Scene& scene, State& state, const WindowPlan& plan, const ImpactTally& tally);
 
-// The one line about two disks (or a disk and a wall) whose collisions pile up. start: of the window. Status 3.
+// Throws the PhysicsError of an inelastic collapse at this event. start: of the window.
 [[noreturn]] void fail_collapse(const ExactRules& rules, const EventMark& event, double start);
 
 }  // namespace carom

@@ -12,29 +12,30 @@ namespace carom {
 
 namespace {
 
-// A disk that finds no room at so many places waits.
+// Places tried for a disk before it has to wait.
 constexpr std::uint32_t places_tried = 32;
-// While some wait, but fewer than this, a source tries so many times from one emission time to the next: a narrow one
-// is free again when the disk before has moved on. Where more wait there is no room, and each try ends a window.
+// While fewer than few_waiting disks wait, a source tries tries_an_emission times in each interval between emissions: a
+// narrow source is free again when the disk before has moved on. If more wait there is no room, and each try would end
+// a window.
 constexpr Count few_waiting = 8;
 constexpr Count tries_an_emission = 4;
 
-// Counts those that are due beyond the source's limit, too: after eight times a full place is full.
+// Counts disks beyond the source's limit, too, so that even the last ones are not tried for ever.
 bool tries_between(const Source& source, const SourceState& s, double t) {
   const Count waiting = emissions_due(source.rate, t) - s.emitted;
   return waiting > 0 && waiting < few_waiting;
 }
 
-// When a source has or tries its next disk, after time t. One that is due at the end of the run, but for rounding, does
-// not come: nothing flies after it.
+// The time after t at which a source emits or tries its next disk. A disk that is due at the end of the run, up to
+// rounding, does not come: no motion follows it.
 double next_emission(const Source& source, const SourceState& s, double t, double t_end) {
   const double rate = tries_between(source, s, t) ? tries_an_emission * source.rate : source.rate;
   const double next = emission_time(rate, emissions_due(rate, t) + 1);
   return next < (1.0 - emission_rounding) * t_end ? next : t_end;
 }
 
-// At time t, an emission time or, where few wait, one in between, but for rounding: a run that goes on beyond its end
-// begins with what was due there.
+// Emits if state.time is an emission time or, while few disks wait, a time in between, up to rounding: a run that is
+// extended begins with the disks that were due at its old end.
 void emit_now(const Scene& scene, const Domain& box, State& state, std::size_t index,
               const std::function<bool(const Disk&)>& room) {
   const Source& source = scene.sources[index];

@@ -1,5 +1,5 @@
-// What happens between two windows of the exact method: sources emit, Brownian velocities are drawn, a thermostat
-// kicks; and the times at which a window must end for that.
+// Between two windows of the exact method sources emit, Brownian velocities are drawn and a thermostat kicks: when that
+// happens, and the times at which windows must end for it.
 #pragma once
 
 #include <functional>
@@ -9,22 +9,21 @@
 
 namespace carom {
 
-// Earliest time after state.time at which a window must end: the end of the run, the next time at which a source that
-// has disks left tries one, the end of the Brownian interval, the thermostat's next kick, the end of a piece of the
-// motion of a side or an inner wall.
+// The latest time at which the window from state.time may end: the earliest of the end of the run, the next try of a
+// source, the end of the Brownian interval, the next kick of the thermostat, and the end of a piece of a wall's motion.
 double next_cut(const Scene& scene, const State& state);
 
-// Every source whose emission time is state.time, but for rounding, emits what is due, each disk at the first of 32
-// places that has room. What finds none waits, and is tried again: at the source's emission times, and while fewer than
-// eight wait at a quarter, a half and three quarters of the time in between. Nothing here depends on where other
-// windows end. Once only before a window (State::step_begun), even where that is begun again: of several sources, the
-// first would try the id that a later one has given away with the next one's places.
+// Every source with an emission time at state.time, up to rounding, emits the disks that are due, each at the first of
+// 32 places that has room. A disk that finds none waits and is tried again: at the source's emission times, and, while
+// fewer than eight wait, at a quarter, a half and three quarters of the time in between. Nothing here depends on where
+// other windows end. Done only once before a window (State::step_begun), even if the window is begun again: a second
+// call would draw other places, since ids have been used up.
 void emit_at_window_start(const Scene& scene, State& state, const std::function<bool(const Disk&)>& room);
 
 // Is a Brownian interval due to begin at state.time?
 bool brownian_interval_begins(const Scene& scene, const State& state);
 
-// Begins it: counts it and gives its number and length.
+// Counts the interval and returns its number and length.
 struct BrownianInterval {
   Count number = 0;
   double length = 0.0;  // time
