@@ -7,7 +7,8 @@
 
 namespace carom {
 
-// The cells c - 1, c, c + 1 along one side, each once: across a periodic side round the corner, else cut off.
+// The cells c - 1, c, c + 1 along one side, each once. Cells beyond a periodic side are those at its other end; beyond
+// any other side there are none.
 class CellNeighbours {
  public:
   CellNeighbours(std::size_t c, std::size_t cells, bool periodic) {

@@ -1,4 +1,4 @@
-// Which disks may meet in a window: a grid over the disks' places at its start.
+// The disks that may collide with a disk in a window: a grid over their positions at its start.
 #pragma once
 
 #include <cmath>
@@ -13,8 +13,9 @@
 
 namespace carom {
 
-// Cells no smaller than the largest diameter plus twice `travel`: disks that go no further than that from their places
-// meet only disks of their own and the eight cells around. Where fewer than three such cells fit across, one serves.
+// Cells are no smaller than the largest diameter plus twice `travel` (length): disks that move by no more than `travel`
+// collide only with disks of their own cell and the eight around it. If fewer than three such cells fit along a side,
+// there is one cell.
 class Neighbourhood {
  public:
   Neighbourhood(const Disks& disks, const Domain& box, double travel) : box_(box) {
@@ -29,11 +30,11 @@ class Neighbourhood {
     }
   }
 
-  // Calls found(j) for every disk j other than i in the cells around i's home.
+  // Calls found(j) for every disk j other than i in the cells around that of disk i.
   template <class Found>
   void visit(std::uint32_t i, Found&& found) const {
     for (const std::size_t row : CellNeighbours(home_[i].row, rows_, box_.periodic_y())) {
-      // Across the bottom or the top of a sheared box disks of any column may be near.
+      // Across the bottom or the top of a sheared box, neighbours may be in any column.
       const bool across = rows_ <= 3 || (row != home_[i].row && row + 1 != home_[i].row && row != home_[i].row + 1);
       if (across && box_.shear.acts()) {
         visit_row(row, i, found);

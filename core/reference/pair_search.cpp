@@ -23,7 +23,8 @@ std::size_t cell_of(double coordinate, double length, std::size_t cells) {
   return cell_index(coordinate / length * static_cast<double>(cells), cells);
 }
 
-// Of the disks disk(0) to disk(n - 1): cells no smaller than their largest diameter, and no more than about one a disk.
+// The grid of disks disk(0) to disk(n - 1): cells no smaller than their largest diameter, and at most about one for
+// each disk.
 template <class Disk>
 UniformGrid make_grid(const Disks& d, const Domain& box, double largest_radius, std::size_t n, Disk disk) {
   UniformGrid grid;
@@ -40,7 +41,8 @@ UniformGrid make_grid(const Disks& d, const Domain& box, double largest_radius, 
     ++grid.start[cell[k]];
   }
   for (std::size_t c = 1; c < grid.start.size(); ++c) grid.start[c] += grid.start[c - 1];
-  // Each cell from its end to its start: its disks are then in their order, and no list of places is needed.
+  // Counting sort. Each cell is filled from its end, so its disks stay in order and no separate list of positions is
+  // needed.
   grid.members.resize(n);
   for (std::size_t k = n; k-- > 0;) grid.members[--grid.start[cell[k]]] = disk(k);
   return grid;
@@ -60,12 +62,12 @@ void sort_by_id(std::vector<Pair>& pairs, const Disks& d) {
   });
 }
 
-// Calls use(i, j), the smaller id first, for the touching pairs of which the disk in the earlier cell lies in this row
-// of the grid.
+// Calls use(i, j), the smaller id first, for the touching pairs whose disk in the earlier cell lies in this row of the
+// grid.
 template <class Use>
 void for_pairs_of_row(const UniformGrid& grid, std::size_t row, const Disks& d, const Domain& box, Use use) {
   const auto use_pairs_between = [&](std::size_t home, std::size_t other) {
-    if (other < home) return;  // they are found from there
+    if (other < home) return;  // such pairs are found from the other cell
     for (std::uint32_t a = grid.start[home]; a < grid.start[home + 1]; ++a) {
       for (std::uint32_t b = other == home ? a + 1 : grid.start[other]; b < grid.start[other + 1]; ++b) {
         const std::uint32_t i = grid.members[a], j = grid.members[b];
@@ -79,7 +81,7 @@ void for_pairs_of_row(const UniformGrid& grid, std::size_t row, const Disks& d, 
     if (grid.start[home] == grid.start[home + 1]) continue;
     const CellNeighbours columns(column, grid.columns, box.periodic_x());
     for (const std::size_t r : rows) {
-      // Across the bottom or the top of a sheared box disks of any column may be near.
+      // Across the bottom or the top of a sheared box, neighbours may be in any column.
       const bool across = grid.rows <= 3 || (r != row && r + 1 != row && r != row + 1);
       if (across && box.shear.acts()) {
         for (std::size_t c = 0; c < grid.columns; ++c) use_pairs_between(home, r * grid.columns + c);
@@ -90,13 +92,14 @@ void for_pairs_of_row(const UniformGrid& grid, std::size_t row, const Disks& d, 
   }
 }
 
-// Disks whose radii differ by less than a factor of four, so that no cell holds many however mixed the sizes are.
+// Disks whose radii differ by less than a factor of four. A grid for each class keeps the number of disks in a cell
+// small for any mixture of sizes.
 struct SizeClass {
   double largest_radius = 0.0;  // length
   UniformGrid grid;
 };
 
-// From the largest disks to the smallest, without classes of none.
+// The classes from the largest disks to the smallest; empty ones are left out.
 std::vector<SizeClass> size_classes(const Disks& d, const Domain& box) {
   constexpr double ratio = 4.0;
   double largest = largest_radius(d);
@@ -118,13 +121,13 @@ std::vector<SizeClass> size_classes(const Disks& d, const Domain& box) {
   return classes;
 }
 
-// As for_pairs_of_row, of disk i and those of a class that is not its own.
+// As for_pairs_of_row, for the pairs of disk i with disks of another class.
 template <class Use>
 void for_pairs_across(const SizeClass& other, std::uint32_t i, const Disks& d, const Domain& box, Use use) {
   const auto axis = [](double length, bool periodic, std::size_t cells) {
     return CellAxis{length, periodic, static_cast<std::int64_t>(cells), static_cast<double>(cells) / length};
   };
-  // Each cell once, where the two ends meet across a periodic side.
+  // Each cell only once, even if the range reaches around a periodic box.
   const auto near = [&](double c, const CellAxis& along) {
     const double reach = d.radius_of(i) + other.largest_radius;
     const CellAxis::Span span = along.span(c - reach, c + reach);

@@ -19,7 +19,8 @@ namespace carom {
 // an edge belong to the nearest cell (F7, F13); across a periodic side the neighbour is the opposite cell (F10).
 std::vector<Pair> find_touching_pairs(const Disks& disks, const Domain& box);
 
-// The deepest overlap of the touching pairs in each of some parts of the box. O(N), however mixed the sizes are.
+// The deepest overlap of the touching pairs in each of several parts of the box; overlap(i, j) is that of disks i and
+// j. O(N) for any mixture of sizes.
 std::vector<Overlap> deepest_of_touching_pairs(const Disks& disks, const Domain& box, const BlockRunner& run,
                                                const std::function<double(std::uint32_t, std::uint32_t)>& overlap);
 

@@ -1,5 +1,5 @@
-// What the two time-stepping references share: the state, and the phases that PairwiseMethod and RollbackMethod
-// (core/step) both have.
+// The base of the two time-stepping references: the state, and the phases that PairwiseMethod and RollbackMethod
+// (core/step) share.
 #pragma once
 
 #include <memory>
@@ -26,13 +26,13 @@ class ReferenceEngine : public Engine {
   std::vector<std::string> take_warnings() override;
 
  protected:
-  // What touches a sink at the very start leaves. Sources due at time t, then Brownian velocities for an interval of
-  // length dt, whose number is `step`, and the disks that will cross a sink in it.
+  // Removes disks that touch a sink at the start of the run; lets sources emit what is due at time t; draws Brownian
+  // velocities for an interval of length dt, whose number is `step`; and removes the disks that cross a sink within it.
   void start_interval(double t, double dt, Count step);
   void kick_if_due();  // by the thermostat
-  // Number of parts that an interval of length dt needs at the present speeds; warns the first time it is above 1.
+  // Number of parts into which an interval of length dt must be split at the present speeds; warns if that is above 1.
   Count parts(double dt);
-  void sort_if_due() {}  // its disks stay in the order in which they came
+  void sort_if_due() {}  // the reference does not sort its disks
   void drift(double t);  // all disks
   void wrap_all();
   void remove_at_sinks();

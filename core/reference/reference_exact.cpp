@@ -100,7 +100,7 @@ class ReferenceExact final : public Engine {
   std::vector<std::string> take_warnings() override { return validity_.take_warnings(); }
 
  private:
-  // Sources emit, Brownian disks draw their velocities; those that cross a sink unseen in the interval leave.
+  // Sources emit, Brownian disks draw their velocities, and those that cross a sink within the interval are removed.
   void start_window() {
     const PhaseTimer timer(times_, "start");
     emit_at_window_start(scene_, state_, [&](const Disk& d) { return has_room(state_.disks, scene_.box, d); });
@@ -120,7 +120,8 @@ class ReferenceExact final : public Engine {
     remove_taken(state_, taken_by);
   }
 
-  // box: at the start of the window. Returns the work of the shear where the disk has left a sheared box.
+  // Sets disk i of d to its place on the path at time s. box: at the start of the window. Returns the work of the shear
+  // if the disk crosses the bottom or the top of a sheared box.
   double place(const PathSegment& path, double s, const Domain& box, Disks& d, std::size_t i) const {
     PathSegment p = carried_to(path, s, scene_.physics.gravity);
     const double work = wrap_with_work(p, d.mass_of(i), box);

@@ -15,7 +15,7 @@ namespace carom {
 
 namespace {
 
-// The phases of PairwiseMethod that the reference has for it alone.
+// The phases that only PairwiseMethod needs.
 class PairwisePhases : public ReferenceEngine {
  public:
   PairwisePhases(const Scene& scene, State initial, CollisionLog* log)
@@ -39,7 +39,7 @@ class PairwisePhases : public ReferenceEngine {
     y_ = state_.disks.y;
   }
 
-  // Is a disk that resolving displaced from the place kept pressed into another or into a wall?
+  // Is a disk that this round displaced pressed into another disk or into a wall?
   bool presses_others() {
     Disks& disks = state_.disks;
     const Domain& box = scene_.box;

@@ -13,7 +13,7 @@ namespace carom {
 
 namespace {
 
-// The phases of RollbackMethod that the reference has for it alone.
+// The phases that only RollbackMethod needs.
 class RollbackPhases : public ReferenceEngine {
  public:
   RollbackPhases(const Scene& scene, State initial, CollisionLog* log)

@@ -1,5 +1,5 @@
 // The method `rollback`: the predictor-corrector of docs/original.md, plain and serial, without faults F3 to F15. F1
-// and F2 are the method itself: one back-up time for the whole system, and every pair found bounces at that moment.
+// and F2 belong to the method: the whole system goes back by one time, and every pair found bounces at that moment.
 #pragma once
 
 #include <memory>

@@ -37,8 +37,8 @@ class EventLoop {
     for (std::uint32_t i = 0; i < disks_.size(); ++i) flight_[i] = flight_of(path(i));
   }
 
-  // Returns the longest path length of any disk; beyond `travel` the neighbourhood was too small and the result is
-  // void.
+  // Returns the longest path length of any disk. If that is more than `travel`, the neighbourhood was too small and the
+  // result is invalid.
   double run() {
     for (std::uint32_t i = 0; i < disks_.size(); ++i) predict(i, true);
     double end = plan_.length;
@@ -88,7 +88,7 @@ class EventLoop {
     });
   }
 
-  // Where a path begins, and how far from there it comes until the window ends at most; length.
+  // The start of a path, and a bound on the distance from it until the window ends; length.
   struct Flight {
     double x, y, reach;
   };
@@ -97,8 +97,9 @@ class EventLoop {
     return {p.x, p.y, (std::sqrt(p.vx * p.vx + p.vy * p.vy) + 0.5 * rules_.gravity.size * rest) * rest};
   }
 
-  // Are two paths so far apart that no contact can be in the window? Most disks around are; this saves no more than the
-  // time to predict it, with a margin far above rounding. Images in a sheared box move: there, all are predicted.
+  // Are two paths so far apart that they cannot touch in the window? That is so for most neighbours, and saves
+  // predictions; the margin is far above rounding, so no result changes. In a sheared box images move, and all pairs
+  // are predicted.
   bool cannot_meet(const Flight& a, const Flight& b, double contact_distance) const {
     const Domain& box = rules_.box;
     if (box.shear.acts()) return false;
@@ -148,8 +149,8 @@ class EventLoop {
     if (lost_energy && burst_[i].add(e.time, plan_.length)) collapse_ = mark;
   }
 
-  // Adds the path length along the present segment up to time s; under gravity an upper bound. In a sheared box disks
-  // that crossed its sides go on in their images, which move.
+  // Adds the path length along the present segment up to time s; under gravity an upper bound. In a sheared box it
+  // includes the motion of the images.
   void add_travel(std::uint32_t i, double s) {
     const PathSegment& p = path(i);
     const double t = s - p.start;
@@ -196,7 +197,7 @@ WindowResult fresh_result(const State& state) {
   return result;
 }
 
-// A first guess at how far disks move: somewhat more than the fastest one does without collisions.
+// A first guess at how far disks move: somewhat further than the fastest disk does without collisions.
 double guess_travel(const ExactRules& rules, const Disks& d, double length) {
   double fastest2 = 0.0;
   for (std::size_t i = 0; i < d.size(); ++i) fastest2 = std::max(fastest2, d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);

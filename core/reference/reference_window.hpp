@@ -14,13 +14,13 @@
 
 namespace carom {
 
-// The paths of the disks through a window, from which frames are read.
+// The paths of the disks through a window, from which frames are computed.
 struct WindowPaths {
   struct Piece {
     std::uint32_t disk;  // storage index at the window's start
     PathSegment path;
     bool gone;       // left through a sink at path.start
-    DiskId partner;  // that it met at path.start: a disk, or a wall (contact_event.hpp)
+    DiskId partner;  // partner of the collision at path.start: a disk, or a wall (contact_event.hpp)
     double spin;     // of a rough disk
   };
   std::vector<PathSegment> first;  // one a disk
@@ -33,13 +33,14 @@ struct WindowResult {
   std::vector<unsigned char> gone;  // left through a sink
   ImpactTally tally;
   CollisionLog collisions;
-  // Nothing of the window counts: it is to be shortened (with the event that tells), or go_on said to stop.
+  // Set if the result is invalid: the window was crowded and has to be shortened (the event says where), or go_on
+  // stopped it.
   std::optional<EventMark> crowded;
   bool given_up = false;
 };
 
-// Finds and resolves every event of [0, plan.length]; `state` is that of the window's start and is not changed.
-// go_on: as in Engine::set_watch. Throws PhysicsError at inelastic collapse.
+// Finds and resolves every event in [0, plan.length]. state: at the window's start. go_on: as in Engine::set_watch.
+// Throws PhysicsError at inelastic collapse.
 WindowResult run_reference_window(const ExactRules& rules, const State& state, const WindowPlan& plan,
                                   const std::function<bool()>& go_on);
 

@@ -1,4 +1,4 @@
-// Disks leave through sinks.
+// Removal of the disks that sinks take.
 #pragma once
 
 #include <vector>

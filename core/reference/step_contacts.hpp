@@ -1,5 +1,4 @@
-// The contacts of one step of `pairwise`, from the list of events to disks that no longer overlap. Serial: the
-// reference.
+// Resolves the contacts of one step of `pairwise`, serially: from the list of events to disks that no longer overlap.
 #pragma once
 
 #include <cmath>
@@ -17,26 +16,27 @@
 
 namespace carom {
 
-// How deep a disk lies in walls at the end of the step. Only disks in contact can: to be asked once for each of them.
+// Enters the overlap of disk i with walls at the end of the step. To be called once for each disk in contact; others
+// have none.
 template <class View>
 void raise_to_wall_overlap(const View& d, const Domain& box, std::uint32_t i, StepFigures& figures) {
   raise_to_wall_overlap(d.x[i], d.y[i], d.radius(i), d.id[i], box, figures.wall);
 }
 
-// How deep the two disks of a contact lie in one another at the end of the step; a wall's contact has none to see.
+// Enters the overlap of the two disks of a contact at the end of the step. Does nothing for a contact with a wall.
 template <class View>
 void note_overlap_left(const View& d, const Domain& box, const ContactEvent& e, StepFigures& figures) {
   if (is_wall(e.id2)) return;
   const double contact_distance = d.radius(e.i1) + d.radius(e.i2);
   const double distance2 = distance2_of(d, e.i1, e.i2, box);
-  // No square root for what is surely shallower than what was seen: in a pile every contact overlaps a little.
+  // No square root for an overlap that is certainly not the deepest: in a pile every contact overlaps a little.
   constexpr double deep = 0.5, above_rounding = 1.0 + 1e-14;
   const double seen = figures.left.size < deep ? contact_distance * (1.0 - figures.left.size) : contact_distance;
   if (distance2 >= contact_distance * contact_distance || distance2 > seen * seen * above_rounding) return;
   figures.left.raise_to({(contact_distance - std::sqrt(distance2)) / contact_distance, e.id1, e.id2});
 }
 
-// How many contacts each disk has, by storage index. Two or more, and it is crowded, as its contacts are.
+// Number of contacts of each disk, by storage index. A disk with two or more is crowded, and so are its contacts.
 std::vector<std::uint32_t> contacts_per_disk(std::size_t disks, const std::vector<ContactEvent>& events);
 inline bool is_crowded(const std::vector<std::uint32_t>& contacts, const ContactEvent& e) {
   return contacts[e.i1] > 1 || (!is_wall(e.id2) && contacts[e.i2] > 1);
@@ -46,8 +46,8 @@ inline bool is_crowded(const std::vector<std::uint32_t>& contacts, const Contact
 std::vector<ContactEvent> contacts_after_drift(Disks& disks, const StepRules& rules);
 
 // Impacts in order of contact, then supports (settling scenes), then pushing apart; counts into state.counters and
-// keeps the loads in state.loads. Sorts events. Returns what went wrong. Pairs that collide are added to log, where one
-// is given.
+// keeps the loads in state.loads. Sorts events. Returns the errors of the step. log: if not null, pairs that collide
+// are added to it.
 StepFigures resolve_serially(State& state, const StepRules& rules, std::vector<ContactEvent>& events,
                              CollisionLog* log = nullptr);
 
