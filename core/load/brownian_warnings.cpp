@@ -31,8 +31,8 @@ bool masses_differ(const Scene& scene) {
   return all.high > (1.0 + rounding) * all.low;
 }
 
-// The key of the first group or source whose disks are to start at velocities which are no draws around 0, empty if
-// there is none. Those that come through a side are to move inward, whatever is drawn.
+// The key of the first group or source with initial velocities that are not random around 0; empty if there is none.
+// Velocities of disks that enter through a side do not count: they must point inwards.
 std::string key_of_motion(const Scene& scene) {
   const auto moves = [](const Vec2& v) { return v.x != 0.0 || v.y != 0.0; };
   for (std::size_t k = 0; k < scene.groups.size(); ++k) {
@@ -50,7 +50,7 @@ std::string key_of_motion(const Scene& scene) {
   return "";
 }
 
-// The box's wall_restitution, as far as its sides tell: those that are no walls have it, or all walls but one.
+// The box's wall_restitution, if it can be inferred: sides that are not walls have it, or all walls but one share it.
 std::optional<double> common_restitution(const Domain& box) {
   for (const Side side : all_sides) {
     if (box.side(side) != SideKind::wall) return box.restitution(side);
@@ -61,7 +61,7 @@ std::optional<double> common_restitution(const Domain& box) {
   return {};
 }
 
-// Of each side that takes energy its own key.
+// The keys of the sides that dissipate, each its own.
 std::string keys_of_losing_sides(const Domain& box) {
   std::vector<std::string> keys;
   for (const Side side : all_sides) {
@@ -71,8 +71,8 @@ std::string keys_of_losing_sides(const Domain& box) {
   return fmt::format("{}", fmt::join(keys, ", "));
 }
 
-// The first key that lets a contact take energy, empty if there is none; where the sides do not tell what they have of
-// the box and what of their own, all that it may be.
+// The first key that makes a contact dissipate, empty if there is none; several keys if it cannot be known which of
+// them set a side's restitution.
 std::string key_of_loss(const Scene& scene) {
   const std::optional<double> common = common_restitution(scene.box);
   const auto key_of_wall = [&](double restitution, const std::string& own) {

@@ -1,4 +1,4 @@
-// What a scene with Brownian motion asks for and cannot have.
+// Warnings about keys that have no effect in a scene with Brownian motion.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace carom {
 
-// One line each, none where velocities are no drawn displacements (core/scene/drawn_velocities.hpp).
+// One line each; none if velocities are not drawn anew each step (core/scene/drawn_velocities.hpp).
 std::vector<std::string> brownian_warnings(const Scene& scene);
 
 }  // namespace carom

@@ -4,9 +4,9 @@ namespace carom {
 
 namespace {
 
-// Bytes a disk. Time stepping: 36 of state, 12 to sort by, 8 to move through, 4 of cells, 2 of counts. Exact: 36 of
-// state, a path with what goes with it (64), a list (64), a calendar's entry (16) and its pages (3), the slots of cells
-// with what is chained to them (13). Spins of rough disks are 8 more of state, and in exact 8 of the window.
+// Bytes for each disk. Time stepping: state 36, sorting 12, a buffer for moved columns 8, cells 4, counts 2. Exact:
+// state 36, path record 64, neighbour list 64, calendar entry 16 and its pages 3, slots of cells and their chains 13.
+// Spins of rough disks add 8 to the state, and 8 to the window of exact.
 constexpr double stepping_bytes = 62.0;
 constexpr double exact_bytes = 196.0;
 constexpr double spin_bytes = 8.0;

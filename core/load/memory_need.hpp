@@ -1,5 +1,5 @@
-// Whether a machine can hold a scene at all, asked before anything is made of it: a count with a zero too many should
-// be one line, not minutes of swapping.
+// A lower bound on the memory of a run, known before anything is allocated: a count with a zero too many should give
+// one line of error, not minutes of swapping.
 #pragma once
 
 #include "core/base/types.hpp"
@@ -7,8 +7,8 @@
 
 namespace carom {
 
-// Bytes that a run of so many disks takes at the very least: state, cells and lists of the method; what contacts add is
-// left out. Measured peaks are in docs/benchmarks.md.
+// Least bytes of a run with this number of disks: state, cells and lists of the method, without contacts. rough: disks
+// spin. Measured peaks are in docs/benchmarks.md.
 double least_memory(Method method, Count disks, bool rough = false);
 
 }  // namespace carom

@@ -17,10 +17,10 @@ namespace carom {
 
 namespace {
 
-// A run of more steps than this is refused: it would take days for a hundred disks.
+// Runs of more steps than this are not offered: they would take days for a hundred disks.
 constexpr double most_steps_offered = 1e9;
 
-// To two digits, whatever the locale of the host program, which strtod would go by.
+// Rounded to two digits, independently of the locale of a host program, which strtod would use.
 double two_digits(double number) {
   const std::string text = fmt::format("{:.1e}", number);
   double rounded = number;
@@ -52,18 +52,18 @@ double exact_collision_seconds(const SceneScales& s) {
   return rates::exact_collision + rates::exact_flight / std::max(s.packing_fraction, 0.01);
 }
 
-// Of two disks, and of one with walls or fixed disks, in the whole run.
+// The number of collisions, of two disks and of disks with walls or fixed disks, in the whole run.
 double collisions_in(double t_end, const SceneScales& s) {
   return s.disks * (0.5 * s.collision_rate + s.wall_rate) * t_end;
 }
 
-// Is there anything in the box that every step looks for?
+// Are there inner walls or fixed disks, which cost time in every step?
 bool has_obstacles(const Scene& scene) {
   const auto is_peg = [](const DiskGroup& group) { return group.fixed && group.count > 0; };
   return !scene.walls.empty() || std::any_of(scene.groups.begin(), scene.groups.end(), is_peg);
 }
 
-// The longest step in which no disk moves further than it safely may.
+// The longest step in which no disk moves further than safe_travel.
 double safe_step(const SceneScales& s) {
   return s.fastest > 0.0 ? safe_travel * s.smallest_radius / s.fastest : std::numeric_limits<double>::infinity();
 }
@@ -72,8 +72,8 @@ std::string steps_text(double t_end, double dt) {
   return fmt::format("dt = {:.1e} would make {:.1e} steps, more than {:.0e}", dt, t_end / dt, most_steps_offered);
 }
 
-// For which share of the run disks lie in a pile: a disk that falls through half the box comes to rest after
-// (1 + e) / (1 - e) times its fall, as its bounces become shorter by e each.
+// The share of the run during which disks lie in a pile: a disk that falls through half the box comes to rest after (1
+// + e) / (1 - e) times the time of its fall, since each bounce is shorter by the factor e.
 double share_in_pile(const Scene& scene, const SceneScales& s) {
   if (!s.settles) return 0.0;
   double e = s.restitution;
@@ -131,27 +131,27 @@ MethodOffer offer_exact(const Scene& scene, const SceneScales& s, double accurac
   return offer;
 }
 
-// Where exact has no error at all, what walls that move make of the disks' speeds is no matter; a step would have to be
-// short against speeds that the scene does not tell.
+// In a scene with moving walls the speeds that disks reach cannot be known beforehand, and so neither the step that
+// pairwise would need. Exact has no error at any speed.
 void leave_driven_to_exact(const SceneScales& s, MethodOffer& pairwise, const MethodOffer& exact) {
   if (!s.driven || s.may_collapse || !exact.possible || exact.error > 0.0 || !pairwise.possible) return;
   pairwise.possible = false;
   pairwise.why = "how fast walls that move make the disks, and so which step is short, is not known before";
 }
 
-// What images that move do to the error of a step is not known; exact has none.
+// The error of a pairwise step in a sheared box is not known; exact has none.
 void leave_shear_to_exact(const Scene& scene, MethodOffer& pairwise) {
   if (!scene.box.shear.acts() || !pairwise.possible) return;
   pairwise.possible = false;
   pairwise.why = "its errors beside box.shear_rate are not known";
 }
 
-// Brownian motion: both methods draw a displacement each dt, and both are wrong by it. Without a disk any dt will do,
-// but a scene with Brownian motion has one.
+// Brownian motion: both methods draw a displacement each dt, and both have the error of that interval. Without disks
+// any dt will do, but a scene with Brownian motion must have one.
 void offer_brownian(const Scene& scene, const SceneScales& s, double accuracy, MethodChoice& choice) {
   constexpr double any = std::numeric_limits<double>::infinity();
   const bool has_disks = s.disks > 0.0;
-  // Collisions of a disk in an interval: rate dt, with a speed of sqrt(2 D / dt), so x sqrt(dt).
+  // Collisions of a disk in an interval: the rate times dt, at a speed of sqrt(2 D / dt); that is x sqrt(dt).
   const double x = has_disks ? 4.0 * (compressibility(s.packing_fraction) - 1.0) *
                                    std::sqrt(2.0 * scene.physics.diffusion / std::numbers::pi) / s.diameter
                              : 0.0;
@@ -178,7 +178,7 @@ void offer_brownian(const Scene& scene, const SceneScales& s, double accuracy, M
   }
 }
 
-// The cheapest of the possible ones; the more accurate of two that cost the same.
+// Chooses the cheapest of the possible methods; of two that cost the same, the more accurate one.
 void pick_best(MethodChoice& choice) {
   for (std::size_t k = 0; k < choice.offers.size(); ++k) {
     const MethodOffer& offer = choice.offers[k];

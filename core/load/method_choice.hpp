@@ -1,4 +1,5 @@
-// Which method and step a scene needs for an accuracy, and why: carom check --accuracy, method = "auto".
+// Chooses the method and step that a scene needs for an accuracy, with the reason: for carom check --accuracy and
+// method = "auto".
 #pragma once
 
 #include <string>
@@ -9,7 +10,7 @@
 
 namespace carom {
 
-// One method for an accuracy.
+// What one method can offer for an accuracy.
 struct MethodOffer {
   Method method = Method::exact;
   bool possible = false;
@@ -26,11 +27,11 @@ struct MethodChoice {
   std::string why;
 };
 
-// Accuracy is the relative error, through the method alone, of what is averaged over disks and time: collision rate,
-// pressure, cooling rate (Brownian motion: mean square displacement; scenes that settle: the energy lost, as the number
-// of ever softer hits is no number of the physics). What a finite run scatters comes on top. Rollback is never chosen:
-// pairwise is cheaper at every error. Precondition: 0 < accuracy <= most_accuracy.
-inline constexpr double most_accuracy = 0.1;  // beyond it the laws of errors no longer hold
+// Accuracy is the relative error of averages over disks and time that the method causes: of collision rate, pressure
+// and cooling rate (with Brownian motion, of the mean square displacement; in scenes that settle, of the energy lost,
+// since the number of ever softer collisions has no physical meaning). Statistical errors of a finite run come on top.
+// Rollback is never chosen: pairwise is cheaper at every error. Precondition: 0 < accuracy <= most_accuracy.
+inline constexpr double most_accuracy = 0.1;  // beyond it the error laws do not hold
 MethodChoice choose_method(const Scene& scene, double accuracy);
 
 // The line that reports what method = "auto" chose. Precondition: scene.run.automatic.

@@ -19,7 +19,7 @@ std::string_view name_of(Side side) {
   return side_names[static_cast<std::size_t>(side)];
 }
 
-// A wall that moves stays in the box until the run's end, but goes round where that is periodic.
+// A moving inner wall must stay in the box until the run's end, except along periodic axes.
 void check_wall_stays(const Scene& scene, Vec2 low, Vec2 high, const std::string& where) {
   const Domain& box = scene.box;
   const double slack = place_slack(box, 0.0);
@@ -36,14 +36,14 @@ void check_wall_stays(const Scene& scene, Vec2 low, Vec2 high, const std::string
              "expected it to stay in the box");
 }
 
-// Times at which a motion is as far as it comes, to either hand, until t_end.
+// The times until t_end at which a motion reaches its extreme places.
 std::array<double, 4> turning_times(const SideMotion& motion, double t_end) {
   if (!motion.vibrates()) return {0.0, 0.0, t_end, t_end};
   return {0.0, std::min(0.25 * motion.period, t_end), std::min(0.75 * motion.period, t_end), t_end};
 }
 
-// Do a side and a wall keep their order until the run's end as they move alike, both steadily or swinging in step?
-// Their distance is then least at one of these times. low, high: of the wall at time 0.
+// Do a side and an inner wall that move alike (both steadily, or in phase) stay apart until the run's end? Their
+// distance is least at one of the turning times. low, high: extent of the wall at time 0.
 bool stay_apart(const Scene& scene, Side side, const InnerWall& wall, Vec2 low, Vec2 high) {
   const SideMotion& motion = scene.box.motions[static_cast<std::size_t>(side)];
   const SideMotion& pace = wall.motion.pace;
@@ -79,7 +79,7 @@ void check_wall(const Scene& scene, const InnerWall& wall, const std::string& wh
   }
   if (!sweep.happens()) return;
   const std::string_view side = name_of(sweep.side);
-  // Of two that move otherwise, what is asked is whether their ways overlap.
+  // If their motions differ, the areas that they sweep over must not overlap.
   if (wall.motion.moves()) {
     fail_input(where,
                fmt::format("the {} side comes into the room that it moves through at t = {:g}", side, sweep.time),
@@ -89,8 +89,8 @@ void check_wall(const Scene& scene, const InnerWall& wall, const std::string& wh
              fmt::format("expected walls where no side comes until run.t_end = {}", scene.run.t_end));
 }
 
-// radius: the largest that the source can give. A side that has swept over the whole region leaves it no place; over a
-// part, and disks come from the rest.
+// radius: the largest of the source's disks. A side must not sweep over the whole region of a source; if it covers a
+// part, disks come from the rest.
 void check_source(const Scene& scene, const Source& source, double radius, const std::string& where) {
   if (source.side) return;
   const Vec2 low{source.region_high.x - radius, source.region_high.y - radius};

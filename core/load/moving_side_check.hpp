@@ -1,4 +1,4 @@
-// What sides that move would run into, foreseen when a scene is loaded.
+// Checks, when a scene is loaded, that moving sides will run into nothing.
 #pragma once
 
 #include "core/scene/place_of_key.hpp"
@@ -6,8 +6,8 @@
 
 namespace carom {
 
-// Inner walls that a side runs into until run.t_end, and regions of sources that one sweeps over. Precondition:
-// settle_sides passed. Throws InputError. Fixed disks are checked when they have their places (initial_state).
+// Throws InputError if until run.t_end a side runs into an inner wall, or sweeps over the region of a source.
+// Precondition: settle_sides passed. Fixed disks are checked when they have their places (initial_state).
 void check_sweeps(const Scene& scene, const PlaceOfKey& place);
 
 }  // namespace carom

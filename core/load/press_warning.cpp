@@ -15,8 +15,8 @@ namespace {
 
 constexpr double densest_of_equal_disks = 0.90689968211710892530;  // pi / sqrt(12), between walls as in the plane
 
-// The least room that the disks of the start can do with: their area where sizes differ, as small ones fill gaps.
-// Obstacles, which may overlap, are left out.
+// A lower bound on the area that the initial disks need: for equal disks that of the densest packing, otherwise the sum
+// of their areas, since small disks fill gaps. Obstacles, which may overlap, are left out.
 double least_room(const Scene& scene) {
   double radius_squared = 0.0;
   double smallest = HUGE_VAL, largest = 0.0;
@@ -33,7 +33,7 @@ double least_room(const Scene& scene) {
   return std::numbers::pi * radius_squared / (smallest == largest ? densest_of_equal_disks : 1.0);
 }
 
-// How far a side has come by a time: one that vibrates as far as it ever comes, once it has been there.
+// The area between the sides at time t; a vibrating side counts at its furthest, once it has been there.
 double room_by(const Domain& box, double t) {
   const auto inset = [&](Side side) {
     const SideMotion& motion = box.motions[static_cast<std::size_t>(side)];

@@ -1,4 +1,4 @@
-// Sides that move so far into the box that the disks cannot all be there, foreseen when a scene is loaded.
+// A warning, when a scene is loaded, about sides that will move in so far that the disks have no room.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace carom {
 
-// One line where the sides leave less room before run.t_end than the disks of the start need, else none. Where sinks
-// take disks away, nothing is foreseen.
+// One line if before run.t_end the sides leave less room than the initial disks need, else none. Always none in scenes
+// with sinks.
 std::vector<std::string> press_warnings(const Scene& scene);
 
 }  // namespace carom

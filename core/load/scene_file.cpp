@@ -37,7 +37,7 @@ namespace carom {
 
 namespace {
 
-// Densest packing of equal disks, pi / sqrt(12): no box can be fuller.
+// Densest packing of equal disks, pi / sqrt(12).
 constexpr double densest_packing = 0.90689968211710892530;
 
 // The table under a name of the root, or nullptr. Throws InputError if the name holds something else.
@@ -72,11 +72,11 @@ std::uint64_t read_seed(const TableReader& root) {
   return seed;
 }
 
-// Shown in one line of pictures, files and messages.
+// The title must fit on one line of pictures, files and messages.
 std::string read_title(const TableReader& root) {
   constexpr std::ptrdiff_t longest = 1000;
   std::string title = root.text("title").value_or("");
-  // Bytes of UTF-8 that begin a character.
+  // Counts the bytes that begin a character of UTF-8.
   const auto characters =
       std::count_if(title.begin(), title.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80; });
   if (characters > longest) {
@@ -85,7 +85,7 @@ std::string read_title(const TableReader& root) {
   return title;
 }
 
-// How large the scene wants its box: both lengths, or a packing fraction with an aspect.
+// The size of the box as the scene gives it: both lengths, or a packing fraction with an aspect.
 struct BoxSize {
   std::optional<double> width, height, packing_fraction, aspect;
 };
@@ -149,7 +149,7 @@ Physics read_physics(const SceneOrigin& origin) {
   return physics;
 }
 
-// What fixed disks do not have. Their mass, which nothing asks for, is 1.
+// Rejects keys that fixed disks do not have. Their mass, which nothing uses, is 1.
 void read_fixed(const TableReader& reader, DiskGroup& group) {
   constexpr std::string_view expected = "expected fixed disks without this key";
   if (reader.find("mass") != nullptr) reader.fail("mass", "given beside fixed = true, an infinite mass", expected);
@@ -250,7 +250,7 @@ double read_accuracy(const TableReader& reader, bool automatic) {
   return accuracy;
 }
 
-// method = "auto": the choice, made where the scene is known as a whole.
+// method = "auto": chooses method and step, once the whole scene is known.
 void choose_run(Scene& scene, const PlaceOfKey& place) {
   const MethodChoice choice = choose_method(scene, scene.run.accuracy);
   if (choice.best < 0) {
@@ -322,7 +322,7 @@ OutputPlan read_output(const SceneOrigin& origin, const Scene& scene) {
   return output;
 }
 
-// Width and height from what the scene says, packing_fraction with the radii drawn.
+// Sets width and height of the box; with packing_fraction, from the radii drawn.
 void settle_box(Scene& scene, const BoxSize& size, const PlaceOfKey& place) {
   if (!size.packing_fraction) {
     scene.box.width = *size.width;
@@ -339,7 +339,7 @@ void settle_box(Scene& scene, const BoxSize& size, const PlaceOfKey& place) {
   const double aspect = size.aspect.value_or(1.0);
   scene.box.height = std::sqrt(area / aspect);
   scene.box.width = aspect * scene.box.height;
-  if (area > 0.0) return;  // check_box looks at the range
+  if (area > 0.0) return;  // check_box checks the range
   fail_input(place("box.packing_fraction"), fmt::format("gives a box of {} x {}", scene.box.width, scene.box.height),
              "expected disks to take up the box, or width and height");
 }

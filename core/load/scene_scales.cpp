@@ -12,15 +12,15 @@ namespace carom {
 
 namespace {
 
-// The density at which disks of a settling scene meet, when they have come down.
+// The packing fraction assumed for the collisions of a settling scene, when disks have come down.
 constexpr double settled_fraction = 0.6;
 
-// The velocities that a law gives disks: the means of v_x^2 and of m v_x^2, and the speed of the fastest.
+// Summary of a velocity law: the means of v_x^2 and of m v_x^2, and the speed of the fastest disk.
 struct LawSpeeds {
   double square = 0.0, temperature = 0.0, fastest = 0.0;
 };
 
-// Of disks with these mean masses.
+// For disks with these mean masses.
 LawSpeeds speeds_of(const VelocityLaw& law, double mean_mass, double mean_inverse_mass, double lightest) {
   switch (law.kind) {
     case VelocityLaw::Kind::maxwell:
@@ -46,7 +46,7 @@ LawSpeeds speeds_of(const VelocityLaw& law, double mean_mass, double mean_invers
   }
 }
 
-// Mean of I w^2 of rough disks of this mass and radius; 0 of smooth ones.
+// Mean of I w^2 of rough disks of this mass and radius; 0 for smooth disks.
 double mean_spin_energy(const Scene& scene, const SpinLaw& law, double mass, double radius) {
   if (!scene.physics.surfaces.are_rough()) return 0.0;
   if (law.temperature > 0.0) return law.temperature;
@@ -65,7 +65,7 @@ struct Tally {
   double lightest = std::numeric_limits<double>::infinity();  // mass
   double fastest = 0.0;                                       // speed of a disk at the start
 
-  // The sums of so many disks, of these sizes; drift: a velocity that all of them have on top.
+  // Adds `count` disks of these sizes. drift: a velocity added to all of theirs.
   void add(double count, const SizeSummary& sizes, const VelocityLaw& law, Vec2 drift, const Scene& scene,
            const SpinLaw& spins) {
     if (!(count > 0.0)) return;
@@ -84,7 +84,7 @@ struct Tally {
   }
 };
 
-// The sizes of so many disks of a source, by those of the first thousand.
+// The sizes of `count` disks of a source, estimated from the first thousand.
 SizeSummary sizes_of(const Source& source, double count, std::uint64_t seed) {
   constexpr double most_draws = 1000.0;
   SizeSummary sum;
@@ -121,14 +121,14 @@ Tally tally_of(const Scene& scene) {
   return tally;
 }
 
-// The gas comes to have the temperature of its thermostat or of its sides, or one between them; 0 where none is
-// thermal.
+// The highest temperature of the thermostat and the thermal sides, which the gas approaches but does not exceed; 0 if
+// there are none.
 double hottest_bath(const Scene& scene) {
   const double hottest = *std::max_element(scene.box.temperatures.begin(), scene.box.temperatures.end());
   return std::max(hottest, scene.physics.thermostat.temperature);
 }
 
-// The speed of the fastest wall, a side or an inner one, and the largest angular frequency of those that vibrate.
+// The largest speed of a moving side or inner wall, and the largest angular frequency of the vibrating ones.
 struct WallDrive {
   bool moves = false;
   double speed = 0.0, vibration = 0.0;  // length / time, 1 / time
@@ -147,14 +147,14 @@ WallDrive wall_drive(const Scene& scene) {
   return drive;
 }
 
-// Of two disks of any groups, as the laws are at speeds where they take most.
+// The least restitution of two disks of any groups, at the speeds at which laws dissipate most.
 double least_restitution(const Scene& scene) {
   double e = scene.physics.restitution;
   for (const GroupPair& pair : scene.physics.law.pairs) e = std::min(e, pair.restitution.least);
   return e;
 }
 
-// The same of ever slower disks, for which laws with a viscosity tend to 1.
+// The same in the limit of slow disks, where laws with a viscosity tend to 1.
 double least_restitution_at_rest(const Scene& scene) {
   const RestitutionLaw& law = scene.physics.law;
   double e = law.viscosity == 0.0 ? scene.physics.restitution : 1.0;
@@ -164,7 +164,7 @@ double least_restitution_at_rest(const Scene& scene) {
   return e;
 }
 
-// Does gravity press disks against something in the box that takes energy from them? e: of two disks.
+// Does gravity press disks against an obstacle that dissipates? e: restitution of two disks.
 bool rests_on_obstacles(const Scene& scene, double e) {
   const Gravity& g = scene.physics.gravity;
   for (const InnerWall& wall : scene.walls) {
@@ -178,10 +178,10 @@ bool rests_on_obstacles(const Scene& scene, double e) {
   return e < 1.0 && std::any_of(scene.groups.begin(), scene.groups.end(), is_peg);
 }
 
-// Collapse in two dimensions is seen for e <= 0.6 (McNamara and Young 1996); under gravity any ball on a floor, an
-// inner wall or between fixed disks that dissipate does it, and so does a pile of more disks than a column that
-// collapses has, ln(4 / (1 - e)) / (1 - e). A restitution that tends to 1 for slow disks keeps a gas from it (Goldman
-// et al. 1998), but not a pile, whose bounces become shorter and shorter all the same.
+// Inelastic collapse occurs in two dimensions for e <= 0.6 (McNamara and Young 1996). Under gravity any disk on a
+// floor, an inner wall or between fixed disks that dissipate collapses, and so does a pile of more disks than ln(4 / (1
+// - e)) / (1 - e), the number in a column that collapses. A restitution that tends to 1 for slow disks prevents
+// collapse in a gas (Goldman et al. 1998), but not in a pile, where bounces become shorter and shorter all the same.
 bool may_collapse(const Scene& scene, double disks) {
   constexpr double two_dimensions = 0.6;
   if (!settles(scene)) return least_restitution_at_rest(scene) <= two_dimensions && disks > 2.0;
@@ -194,13 +194,13 @@ bool may_collapse(const Scene& scene, double disks) {
   return e < 1.0 && disks > std::log(4.0 / (1.0 - e)) / (1.0 - e);
 }
 
-// What stands in the way of a disk's centre: the length of it all, and the area that is left.
+// Walls and fixed disks as a disk's centre meets them: their total length, and the area that is left to it.
 struct Confinement {
   double length = 0.0, area = 0.0;
 };
 
 Confinement confinement(const Scene& scene, double diameter) {
-  constexpr double least_share = 1e-3;  // of a diameter, where disks fit in hardly or pass in places alone
+  constexpr double least_share = 1e-3;  // of a diameter: a lower bound where disks hardly fit
   const Domain& box = scene.box;
   const auto walls = [&](Side a, Side b) {
     return static_cast<double>(box.side(a) == SideKind::wall) + static_cast<double>(box.side(b) == SideKind::wall);
@@ -229,7 +229,7 @@ Confinement confinement(const Scene& scene, double diameter) {
       taken += length * diameter;
     }
   }
-  constexpr double least_left = 0.05;  // where fixed disks and walls overlap
+  constexpr double least_left = 0.05;  // of the box: a lower bound where fixed disks and walls overlap
   c.area *= std::max(least_left, 1.0 - taken / c.area);
   return c;
 }
@@ -250,20 +250,20 @@ SceneScales scales_of(const Scene& scene) {
   s.smallest_radius = tally.smallest;
   s.diameter = 2.0 * std::sqrt(tally.radius2 / tally.disks);
   s.packing_fraction = std::min(0.9, std::numbers::pi * tally.radius2 / (scene.box.width * scene.box.height));
-  // Collisions share energy out, so that light disks become faster than heavy ones.
+  // Collisions equalise energies, so that light disks become faster than heavy ones.
   const double shared2 = tally.temperature / tally.disks * tally.inverse_mass / tally.disks;
   const double thermal2 = std::max({tally.speed2 / tally.disks, shared2, hottest_bath(scene) / tally.lightest});
-  // A wall that moves sends a disk at rest off at twice its speed.
+  // A moving wall gives a disk at rest twice its speed.
   const WallDrive drive = wall_drive(scene);
   s.driven = drive.moves;
   s.vibration = drive.vibration;
   const double speed2 = thermal2 + 4.0 * drive.speed * drive.speed;
-  // A disk falls through half the box in the mean: v^2 = g H, of which half for each component.
+  // On average a disk falls through half the box: v^2 = g H, half of it for each component.
   const Gravity& g = scene.physics.gravity;
   const double fall2 = std::abs(g.down) * scene.box.height + std::abs(g.left) * scene.box.width;
   s.speed = std::sqrt(speed2 + 0.5 * fall2);
-  // A disk of the lightest mass may be faster than fastest_share of what all have in the mean, one that a scene lists
-  // at a speed of its own, too.
+  // A disk of the smallest mass may be faster than fastest_share times the mean; so may one that starts at a speed of
+  // its own.
   const double hottest = std::max(tally.temperature / tally.disks, hottest_bath(scene));
   const double fast = std::max(tally.fastest, fastest_share * std::sqrt(hottest / tally.lightest));
   s.fastest = std::max(fastest_share * s.speed, std::sqrt(fast * fast + fall2) + 2.0 * drive.speed);

@@ -1,4 +1,4 @@
-// What pairwise loses of disks that are nearly elastic, where gravity makes a pile of them.
+// A warning about the energy that pairwise loses too much in a pile of nearly elastic disks.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace carom {
 
-// One line where a step is so long that too much energy may be lost, by a bound that was measured (docs/methods.md);
-// none elsewhere. Preconditions: those of scales_of.
+// One line if the step is so long that too much energy may be lost, by a measured bound (docs/methods.md); else none.
+// Preconditions: those of scales_of.
 std::vector<std::string> settling_warnings(const Scene& scene);
 
 }  // namespace carom

@@ -26,7 +26,7 @@ bool differs(const InnerWall& wall, const Domain& box, Side side) {
   return wall.motion.moves() || box.is_thermal(side) || wall.restitution != box.restitution(side);
 }
 
-// The first side along which the wall lies and from which it differs.
+// The first side along which a segment of the wall lies and from which the wall differs.
 std::optional<Side> side_behind(const InnerWall& wall, const Domain& box) {
   for (std::size_t k = 0; k + 1 < wall.points.size(); ++k) {
     const std::optional<Side> side = side_along(box, wall.points[k], wall.points[k + 1]);
@@ -44,7 +44,7 @@ bool is_belt(const InnerWall& wall, const Gravity& gravity) {
   return false;
 }
 
-// Would friction take what rests on the wall along, which supports of a pile do not have?
+// Would friction drag resting disks along with the wall, although supports of a pile have no friction?
 bool loses_hold(const InnerWall& wall, const Scene& scene) {
   if (wall.sink || !wall.motion.moves() || scene.run.method != Method::pairwise) return false;
   return scene.physics.surfaces.are_rough() && scene.physics.surfaces.walls.acts() && settles(scene) &&

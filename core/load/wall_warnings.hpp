@@ -1,4 +1,4 @@
-// Inner walls that will not do all that a scene may expect of them.
+// Warnings about inner walls that may not act as the scene expects.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace carom {
 
-// One line for each inner wall of which a segment lies along a wall side that has another restitution, is thermal, or
-// stands still where the wall moves: of the two a disk meets either one, as rounding has it. No sinks: they take what
-// touches both. One for each rough wall that moves along itself beneath disks that come to rest on it, where those bear
-// load without friction.
+// One line for each inner wall with a segment along a side that has another restitution, is thermal, or rests while the
+// wall moves: rounding decides which of the two a disk meets. (Sinks are excepted: they take disks that touch both.)
+// One line for each rough wall that moves along itself beneath disks that come to rest on it, since resting contacts
+// have no friction.
 std::vector<std::string> wall_warnings(const Scene& scene);
 
 }  // namespace carom
