@@ -48,7 +48,7 @@ bool is_header(std::string_view line) {
   return starts_like_name(first) && starts_like_name(second) && !parse_number(first) && !parse_number(second);
 }
 
-// A heading such as "y,x" or "vy [m/s], vx [m/s]": the same but for a letter, y where the other has x.
+// A heading in the wrong order, such as "y,x" or "vy [m/s], vx [m/s]".
 bool has_y_first(std::string_view heading) {
   const std::size_t comma = heading.find(',');
   const std::string_view first = trim(heading.substr(0, comma)), second = trim(heading.substr(comma + 1));
@@ -64,7 +64,7 @@ bool names_velocity(std::string_view field) {
   return first < field.size() && (field[first] == 'v' || field[first] == 'V');
 }
 
-// What was expected of a heading that names something else than is to be read; empty if it does not.
+// The text of what was expected if the heading names other quantities than are to be read; else empty.
 std::string_view other_heading(std::string_view heading, CsvPairs pairs) {
   if (has_y_first(heading)) return "expected x first, then y";
   const std::size_t comma = heading.find(',');

@@ -1,5 +1,5 @@
-// Brownian disks have no velocity: the u / dt of a step is a displacement that was drawn for it, and grows as dt
-// shrinks.
+// Scenes whose velocities are not physical: with Brownian motion the velocity u / dt of a step stands for a random
+// displacement u, and grows as dt shrinks.
 #pragma once
 
 #include <algorithm>
@@ -9,13 +9,13 @@
 
 namespace carom {
 
-// Are velocities those of drawn displacements, so that energy, momentum, pressure and forces mean nothing? Not with
+// Do velocities stand for random displacements, so that energy, momentum, pressure and forces have no meaning? Not with
 // accumulate, which adds up velocities as the program of docs/original.md does.
 inline bool velocities_are_drawn(const Scene& scene) {
   return scene.physics.diffusion > 0.0 && !scene.physics.accumulate;
 }
 
-// Does nothing in the scene give momentum to the disks or take it away?
+// Is the momentum of the disks conserved?
 inline bool keeps_momentum(const Scene& scene) {
   return scene.box.periodic_x() && scene.box.periodic_y() && !scene.box.shear.acts() && !scene.physics.gravity.acts() &&
          !(scene.physics.diffusion > 0.0) && !scene.physics.thermostat.acts() && scene.sources.empty() &&

@@ -1,4 +1,4 @@
-// Keys of disks: of those of the start, of sources, of walls within the box. A part of scene_keys().
+// Keys of initial disks, of sources and of inner walls. A part of scene_keys().
 #pragma once
 
 #include <string_view>
@@ -19,7 +19,7 @@ inline constexpr std::string_view mass_allowed =
     "}`, `{ from_radius = ... }`, or `{ frame = ... }`";
 inline constexpr std::string_view velocities_allowed =
     "`{ maxwell = ... }`, `{ uniform = ... }`, a list of [vx, vy], `{ file = ... }`, or `{ frame = ... }`";
-// Of disks from sources, however many will come.
+// The values allowed for disks from sources, whose number is not known.
 inline constexpr std::string_view radius_drawn =
     "a number above 0, `{ uniform = ... }`, `{ normal = ... }`, `{ lognormal = ... }`, `{ choice = ... }`, or "
     "`{ from_mass = ... }`";

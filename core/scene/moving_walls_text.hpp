@@ -1,4 +1,4 @@
-// Where the walls that move are, for messages.
+// The places of moving walls, for messages.
 #pragma once
 
 #include <fmt/format.h>
@@ -11,14 +11,14 @@
 
 namespace carom {
 
-// Its coordinate, x or y, at time t.
+// The coordinate of a side, x or y, at time t.
 inline double side_coordinate(const Domain& box, Side side, double t) {
   const double inset = box.motions[static_cast<std::size_t>(side)].at(t).inset;
   if (side == Side::left || side == Side::bottom) return inset;
   return (side == Side::right ? box.width : box.height) - inset;
 }
 
-// "the right side is at x = 3.2, wall walls.0 has moved by (2, 0)", and so on; of many inner walls the first ones.
+// "the right side is at x = 3.2, wall walls.0 has moved by (2, 0)" and so on; of many inner walls only the first.
 inline std::string moving_walls_text(const Domain& box, double t) {
   constexpr std::size_t most = 4;
   std::string text;

@@ -1,12 +1,12 @@
-// A change to a scene that the command line makes.
+// A change of a scene by the command line.
 #pragma once
 
 #include <string>
 
 namespace carom {
 
-// A change made on the command line: "physics.restitution" = "0.5" (value in TOML syntax; a bare word is a string).
-// key may also address one entry of an array of tables: "disks.0.count".
+// For example key "physics.restitution", value "0.5" (TOML syntax; a bare word is a string). key may address an entry
+// of an array of tables: "disks.0.count".
 struct Override {
   std::string key;
   std::string value;

@@ -1,4 +1,4 @@
-// The bounds of what movies and pictures may look like, for scenes and for carom render.
+// The bounds of the settings of movies and pictures, for scenes and for carom render.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace carom {
 
-// What is expected instead of such a look, in words; empty where it is good. docs/scene.md names the bounds.
+// The text of what is expected instead of this value; empty if it is within the bounds of docs/scene.md.
 std::string complaint_of_fps(double fps);
 std::string complaint_of_size(double width, double height);
 std::string complaint_of_range(ColourBy colour, double low, double high);

@@ -1,4 +1,4 @@
-// Where a table of a scene stands, for messages of what was found long after it was read.
+// The place of a table in a scene's file, for messages long after it was read.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace carom {
 
-// "gas.toml:12: disks.0.region", of a key in a table whose header stands in this line of the scene's file. 0: in no
-// line, as where --set or a program gave the table; then the file alone is named.
+// "gas.toml:12: disks.0.region", for a key in a table whose header is in this line of the scene's file. Line 0 (a table
+// from --set or from a program) is left out.
 inline std::string place_in_file(const std::string& file, int line, std::string_view key) {
   return (file + (line > 0 ? ":" + std::to_string(line) : "") + ": ").append(key);
 }

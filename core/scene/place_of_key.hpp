@@ -1,4 +1,4 @@
-// Where a key of a scene was given, for messages.
+// The place of a key in a scene's file, for messages.
 #pragma once
 
 #include <functional>
@@ -7,7 +7,7 @@
 
 namespace carom {
 
-// The place of a key for messages: "disks.0.count" -> "gas.toml:12: disks.0.count".
+// Maps a key to its place: "disks.0.count" -> "gas.toml:12: disks.0.count".
 using PlaceOfKey = std::function<std::string(std::string_view key)>;
 
 }  // namespace carom

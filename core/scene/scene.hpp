@@ -1,5 +1,5 @@
-// A scene: everything a run is made from, with every default filled in. Plain data; scene_file.hpp reads it from
-// TOML, initial_state.hpp makes disks of it.
+// A scene: the complete description of a run, with every default filled in. Plain data; scene_file.hpp reads it from
+// TOML, initial_state.hpp makes disks from it.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ enum class Method : std::uint8_t { rollback, pairwise, exact };
 struct SizeLaw {
   enum class Kind : std::uint8_t {
     constant,   // value
-    list,       // values, one a disk
+    list,       // values, one for each disk
     uniform,    // drawn from [low, high]
     normal,     // mean value, standard deviation
     lognormal,  // value times exp of a normal deviate of this standard deviation
@@ -37,13 +37,13 @@ struct SizeLaw {
   double deviation = 0.0;       // of the size for normal, of its logarithm for lognormal
   std::vector<double> weights;  // as many as values
   double density = 0.0;         // mass / length^2
-  std::string file{};           // where the values came from, empty if the scene
+  std::string file{};           // the file of the values; empty if they are in the scene
 };
 
 // Part of the box within which a group starts, with whole disks: a rectangle or a circle.
 struct StartRegion {
   bool circle = false;
-  Vec2 low, high;       // corners of the rectangle; of the square around a circle
+  Vec2 low, high;       // corners of the rectangle, or of the square around a circle
   Vec2 centre;          // of a circle
   double radius = 0.0;  // likewise; length
 };
@@ -51,10 +51,10 @@ struct StartRegion {
 struct PositionLaw {
   enum class Kind : std::uint8_t { random, square, hexagonal, growth, list };
   Kind kind = Kind::random;
-  std::vector<Vec2> list;             // from the scene or from a CSV file
-  std::string file;                   // where the list came from, empty if the scene; for error messages
-  std::optional<StartRegion> region;  // of random places and lattices; absent: the box
-  std::string where;                  // "file:line: key" of positions, for error messages; empty if no file was read
+  std::vector<Vec2> list;             // from the scene or from a file
+  std::string file;                   // the file of the list, for messages; empty if it is in the scene
+  std::optional<StartRegion> region;  // for random places and lattices; absent: the whole box
+  std::string where;                  // "file:line: key" of positions, for messages; empty if no file was read
 };
 
 struct VelocityLaw {
@@ -71,16 +71,16 @@ struct VelocityLaw {
   std::string file;
 };
 
-// How rough disks spin at first.
+// The initial spins of rough disks.
 struct SpinLaw {
   double value = 0.0;        // 1 / time, counter-clockwise
-  std::vector<double> list;  // one a disk, in place of value
-  double temperature = 0.0;  // > 0: normal deviates in place of both, of mean square T / I
-  std::string file;          // where the list came from, empty if the scene
+  std::vector<double> list;  // if not empty, one for each disk, instead of value
+  double temperature = 0.0;  // if > 0, normal deviates of mean square T / I instead of both
+  std::string file;          // the file of the list; empty if it is in the scene
 };
 
 struct DiskGroup {
-  std::string name;  // that columns, options and messages call it by; empty: none
+  std::string name;  // for columns, options and messages; empty: none
   Count count = 0;
   PositionLaw positions;
   VelocityLaw velocities;
@@ -88,13 +88,13 @@ struct DiskGroup {
   SpinLaw spins;
   SizeLaw radius;
   SizeLaw mass;
-  bool fixed = false;  // obstacles: they never move, and their mass, which is infinite, is not asked for
+  bool fixed = false;  // obstacles: they never move; their mass is infinite and not given
   int line = 0;        // of the [[disks]] header in the scene file, for error messages
 };
 
-// Emits the k-th disk (k = 1, 2, ...) at time k / rate, as soon as a place drawn for it is free.
+// Emits the k-th disk (k = 1, 2, ...) at time k / rate, or later, once a place drawn for it is free.
 struct Source {
-  std::optional<Side> side;      // disks enter touching this side, moving inward
+  std::optional<Side> side;      // disks enter at this side, touching it, and move inwards
   Vec2 region_low, region_high;  // otherwise: centres uniform in this rectangle
   double rate = 0.0;             // disks / time
   SizeLaw radius, mass;
@@ -106,14 +106,14 @@ struct Source {
 
 // A line of segments within the box, without thickness: each segment is an obstacle.
 struct InnerWall {
-  std::vector<Vec2> points;  // two or more, no two in a row alike
+  std::vector<Vec2> points;  // two or more; successive points differ
   bool sink = false;         // takes disks that touch it
   double restitution = 1.0;
   int line = 0;  // of the [[walls]] header
   WallMotion motion{};
 };
 
-// What keeps the disks at a temperature (core/step/thermostat.hpp).
+// Keeps the disks at a temperature (core/step/thermostat.hpp).
 struct Thermostat {
   enum class Kind : std::uint8_t {
     langevin,  // friction and noise on every disk
@@ -122,7 +122,7 @@ struct Thermostat {
   };
   Kind kind = Kind::none;
   double temperature = 0.0;  // k_B = 1
-  double rate = 0.0;         // of friction, or at which a disk gets a new velocity; 1 / time
+  double rate = 0.0;         // of friction, or of new velocities for a disk; 1 / time
   double dt = 0.0;           // between two kicks; 0: that of the run
   bool acts() const { return kind != Kind::none; }
   // Time between two kicks; step: of the run.
@@ -131,8 +131,8 @@ struct Thermostat {
 
 struct Physics {
   Gravity gravity;           // length / time^2
-  double restitution = 1.0;  // of two disks, in [0, 1]; the least one where it depends on their speed
-  RestitutionLaw law;        // what there is beside that number
+  double restitution = 1.0;  // of two disks, in [0, 1]; its least value if it depends on their speed
+  RestitutionLaw law;        // further rules for restitution, beside that number
   double diffusion = 0.0;    // length^2 / time; > 0: Brownian motion, (24) of docs/original.md
   bool accumulate = false;   // docs/original.md: u / dt is added to the velocity instead of replacing it
   std::optional<double> collapse_contact_time;  // TC model, exact only
@@ -140,25 +140,25 @@ struct Physics {
   Surfaces surfaces;  // rough or smooth
 };
 
-// How positions = "growth" goes about it (growth.hpp).
+// The parameters of positions = "growth" (growth.hpp).
 struct GrowthPlan {
   bool given = false;     // does the scene have [growth]?
-  double slowness = 1.0;  // > 0: how much more than usual disks move between two steps of growth
-  Count steps = 10'000;   // at most so many
+  double slowness = 1.0;  // > 0; factor of the distance that disks move between two steps of growth
+  Count steps = 10'000;   // the most steps
 };
 
 struct RunPlan {
   Method method = Method::exact;
-  double dt = 0.0;         // time; 0 where the method needs none
+  double dt = 0.0;         // time; 0 if the method needs none
   double t_end = 0.0;      // time
   bool automatic = false;  // method = "auto": method and dt were chosen for accuracy (method_choice.hpp)
-  double accuracy = 0.0;   // relative error that the choice may make; 0: not given
-  std::string choice{};    // why it was chosen so; empty unless automatic
+  double accuracy = 0.0;   // allowed relative error of the method; 0: not given
+  std::string choice{};    // the reason of the choice; empty unless automatic
 };
 
 enum class TrajectoryFormat : std::uint8_t { none, xyz, h5md };
 
-// Disks first to end - 1, by id. The largest number is no disk's id, so that the default holds all.
+// Disks with ids in [first, end). No disk has the largest number as id, so the default contains all disks.
 struct IdRange {
   DiskId first = 0;
   DiskId end = std::numeric_limits<DiskId>::max();
@@ -166,7 +166,7 @@ struct IdRange {
   bool operator==(const IdRange&) const = default;
 };
 
-// The disks that a trajectory shows: those of a group, or every so many by id, or those with the centre in a rectangle.
+// The disks in a trajectory: those of a group, every n-th by id, or those with the centre in a rectangle.
 struct Selection {
   std::string group;  // empty: all
   IdRange ids;        // of the group
@@ -176,15 +176,15 @@ struct Selection {
   bool all() const { return !by_region && stride == 1 && ids == IdRange{}; }
 };
 
-// What the colour of a disk stands for in movies and pictures.
+// The quantity that colours show in movies and pictures.
 enum class ColourBy : std::uint8_t { speed, group, radius, mass, id };
 
-// How movies and pictures look.
+// The settings of movies and pictures.
 struct PictureLook {
   ColourBy colour = ColourBy::speed;
-  double fps = 25.0;                           // frames a second of a movie
-  int width = 0, height = 0;                   // pixels, both even; 0: as the shape of the box asks
-  std::optional<std::array<double, 2>> range;  // ends of the colour scale; absent: as the run asks
+  double fps = 25.0;                           // frames per second of a movie
+  int width = 0, height = 0;                   // pixels, both even; 0: chosen by the shape of the box
+  std::optional<std::array<double, 2>> range;  // ends of the colour scale; absent: chosen by the run
   bool operator==(const PictureLook&) const = default;
 };
 
@@ -195,14 +195,14 @@ struct OutputPlan {
   bool single_precision = false;  // of positions, velocities and spins in the trajectory
   bool series = false;
   std::vector<std::string> plots;  // "velocity", "energy"
-  int dimensions = 2;              // components of positions and velocities in trajectory.h5: z is 0 in a third
+  int dimensions = 2;              // components of positions and velocities in trajectory.h5; a third one is 0
   bool movie = false;
   PictureLook look;
-  bool view = false;        // a page that plays the trajectory
-  double checkpoint = 0.0;  // seconds of wall time between checkpoints; 0: none but on a signal
+  bool view = false;        // write a page that plays the trajectory
+  double checkpoint = 0.0;  // wall time between checkpoints in seconds; 0: only on a signal
 };
 
-// What can be measured while a run goes on.
+// The quantities that a run can measure.
 enum class Quantity : std::uint8_t {
   pair_correlation,
   displacement,
@@ -219,11 +219,11 @@ enum class Quantity : std::uint8_t {
 };
 inline constexpr std::size_t quantities = 12;
 
-// Distances of pairs, in equal bins.
+// Equal bins of the distance of pairs.
 struct DistancePlan {
   double r_max = 0.0;  // length
   Count bins = 0;
-  double wall_margin = 0.0;  // least distance from walls and sinks of disks whose surroundings count; length
+  double wall_margin = 0.0;  // least distance from walls and sinks of disks around which pairs are counted; length
 };
 
 struct NamedIds {
@@ -234,19 +234,19 @@ struct NamedIds {
 // Measured at the times start + k every, and at t_end.
 struct AnalysisPlan {
   std::array<bool, quantities> wanted{};  // by Quantity
-  std::string group;                      // that all but pressure and collision rate is measured of; empty: all disks
-  IdRange ids;                            // of the group
-  double every = 0.0;                     // simulated time between samples; 0: only the first and the last
-  double start = 0.0;                     // simulated time of the first
-  DistancePlan pairs;                     // of the pair correlation
-  std::vector<NamedIds> pair_groups;      // each of which has a g(r) with each
-  DistancePlan bonds;                     // of the bond correlation
-  double speed_max = 0.0;                 // of the speed histogram, in units of sqrt(T / m)
+  std::string group;   // its disks are measured, except for pressure and collision rate; empty: all disks
+  IdRange ids;         // of the group
+  double every = 0.0;  // simulated time between samples; 0: only the first and the last
+  double start = 0.0;  // simulated time of the first
+  DistancePlan pairs;  // of the pair correlation
+  std::vector<NamedIds> pair_groups;  // each pair of them has a g(r)
+  DistancePlan bonds;                 // of the bond correlation
+  double speed_max = 0.0;             // of the speed histogram, in units of sqrt(T / m)
   Count speed_bins = 0;
   bool density_along_x = false;  // else along y
   Count density_bins = 0;
-  double density_every = 0.0;    // simulated time that a row of the profile takes in; 0: no rows, but the whole run
-  bool profile_along_x = false;  // of velocity and temperature; else along y
+  double density_every = 0.0;    // simulated time of a row of the profile; 0: one profile for the whole run
+  bool profile_along_x = false;  // profiles of velocity and temperature; else along y
   Count profile_bins = 0;
   double profile_every = 0.0;  // likewise
   Count wave_numbers = 0;      // of the structure factor, along each periodic axis
@@ -260,7 +260,7 @@ struct Scene {
   std::string file;  // as given on the command line
   std::uint64_t seed = 1;
   Domain box;
-  std::array<std::optional<double>, 4> side_places{};  // coordinates of moving sides that the scene gives
+  std::array<std::optional<double>, 4> side_places{};  // coordinates of moving sides, where the scene gives them
   Physics physics;
   std::vector<DiskGroup> groups;
   std::vector<Source> sources;
@@ -271,7 +271,7 @@ struct Scene {
   AnalysisPlan analysis;
 };
 
-// Does a side of the box or an inner wall take disks away?
+// Is a side of the box or an inner wall a sink?
 inline bool has_sinks(const Scene& scene) {
   for (const InnerWall& wall : scene.walls) {
     if (wall.sink) return true;
@@ -279,7 +279,7 @@ inline bool has_sinks(const Scene& scene) {
   return scene.box.has(SideKind::sink);
 }
 
-// How many sinks have a number (core/disks/sink_counts.hpp); 0 without a sink.
+// The number of sink numbers (core/disks/sink_counts.hpp); 0 without a sink.
 inline std::size_t sink_numbers(const Scene& scene) {
   return has_sinks(scene) ? all_sides.size() + scene.walls.size() : 0;
 }
@@ -291,22 +291,22 @@ inline bool disks_dissipate(const Scene& scene) {
          (surfaces.are_rough() && surfaces.disks.dissipates());
 }
 
-// May a contact with a wall lose energy along its surface?
+// May friction at walls dissipate energy?
 inline bool walls_rub(const Scene& scene) {
   return scene.physics.surfaces.are_rough() && scene.physics.surfaces.walls.dissipates();
 }
 
-// Null where all is smooth. Lives as long as the scene.
+// Null if all surfaces are smooth. Valid as long as the scene.
 inline const Surfaces* surfaces_of(const Scene& scene) {
   return scene.physics.surfaces.are_rough() ? &scene.physics.surfaces : nullptr;
 }
 
-// Null where the number says it all. Lives as long as the scene.
+// Null if one number is enough. Valid as long as the scene.
 inline const RestitutionLaw* law_of(const Scene& scene) {
   return scene.physics.law.is_empty() ? nullptr : &scene.physics.law;
 }
 
-// Of each [[walls]] table; empty where no inner wall moves.
+// The motion of each [[walls]] table; empty if no inner wall moves.
 inline std::vector<WallMotion> motions_of(const Scene& scene) {
   std::vector<WallMotion> motions;
   if (!scene.box.inner_walls_move) return motions;
@@ -314,7 +314,7 @@ inline std::vector<WallMotion> motions_of(const Scene& scene) {
   return motions;
 }
 
-// Of the fastest inner wall; length / time.
+// Speed of the fastest inner wall; length / time.
 inline double fastest_inner_wall(const Scene& scene) {
   double fastest = 0.0;
   if (!scene.box.inner_walls_move) return fastest;

@@ -14,21 +14,21 @@ namespace carom {
 
 namespace {
 
-// More would be noise, and a file too long to read.
+// More bins would only show noise.
 constexpr Count most_bins = 100'000;
 struct DefaultDistances {
   std::string_view name;
   double reach, bins_per_diameter;  // diameters, 1
 };
-// Where nothing is said: pairs up to five diameters in bins of a fiftieth, so that the first bin beyond contact of
-// equal disks begins at contact.
+// Defaults for pairs: up to five diameters, in bins of a fiftieth, so that a bin begins exactly at the contact of equal
+// disks.
 constexpr DefaultDistances pair_defaults{"pair_correlation", 5.0, 50.0};
-// Order reaches further, and has no step at contact.
+// Bond order reaches further, and has no step at contact.
 constexpr DefaultDistances bond_defaults{"bond_correlation", 20.0, 10.0};
-// In thermal speeds; no disk in 10^7 is faster.
+// In thermal speeds; less than one disk in 10^7 is faster.
 constexpr double default_speed_max = 6.0;
 constexpr Count default_speed_bins = 60, default_density_bins = 50, default_wave_numbers = 100;
-// Samples of a run that says nothing of how often.
+// Samples of a run if the scene does not say how often.
 constexpr double default_samples = 100.0;
 
 void read_wanted(const TableReader& reader, AnalysisPlan& plan) {
@@ -94,7 +94,7 @@ double read_rows(const TableReader& options, const AnalysisPlan& plan, const Sce
   return every;
 }
 
-// read(table) of the table with the options of one quantity, if there is one.
+// Calls read(table) with the table of options of a quantity, if there is one.
 template <class Read>
 void read_options(const TableReader& analysis, const AnalysisPlan& plan, Quantity quantity, Read read) {
   const std::string_view name = quantity_names[static_cast<std::size_t>(quantity)];
@@ -111,15 +111,15 @@ void read_options(const TableReader& analysis, const AnalysisPlan& plan, Quantit
   read(TableReader(analysis.origin(), analysis.key(name), *node->as_table()));
 }
 
-// The largest r_max that a side of this length takes, and what is taken where nothing is said; both lengths.
+// The largest r_max possible with a side of this length, and the default; both lengths.
 struct Reach {
   double most = 0.0, usual = 0.0;
 };
 
 Reach reach_along(double length, bool periodic, double radius) {
   if (periodic) return {0.5 * length, 0.5 * length};
-  // Disks as far from both walls as pairs are looked at, and a radius more, are those whose surroundings count: a half
-  // of the places that centres can have.
+  // Pairs are counted around disks that are r_max and a radius away from both walls; by default r_max leaves half of
+  // the possible centres for that.
   const double room = 0.5 * length - radius;
   return {room * (1.0 - 1e-9), 0.5 * room};
 }
@@ -135,7 +135,7 @@ void settle_distances(const Scene& scene, DistancePlan& plan, const DefaultDista
                fmt::format("{} finds no room: a disk fills the box from wall to wall", usual.name),
                "expected a larger box");
   }
-  // A scene may have no disk at all.
+  // The diameter is 0 in a scene without disks.
   if (plan.r_max == 0.0) plan.r_max = std::min({x.usual, y.usual, diameter > 0.0 ? usual.reach * diameter : x.usual});
   const bool periodic = scene.box.periodic_x() && scene.box.periodic_y();
   if (plan.r_max > most) {
@@ -152,7 +152,7 @@ void settle_distances(const Scene& scene, DistancePlan& plan, const DefaultDista
   plan.wall_margin = plan.r_max + largest_radius;
 }
 
-// Of the disks that are measured: an obstacle is not, and where a group is selected no other disk.
+// Obstacles are not measured; if a group is selected, other disks are not, either.
 double largest_measured_radius(const Scene& scene) {
   const IdRange& measured = scene.analysis.ids;
   double largest = 0.0;
@@ -188,7 +188,7 @@ Count read_wave_numbers(const TableReader& options) {
   return wave_numbers;
 }
 
-// The tables of all quantities that have options.
+// Reads the tables of all quantities that have options.
 void read_all_options(const TableReader& reader, const Scene& scene, AnalysisPlan& plan) {
   read_options(reader, plan, Quantity::pair_correlation, [&](const TableReader& options) {
     plan.pairs = read_distances(options);
@@ -214,7 +214,7 @@ void read_all_options(const TableReader& reader, const Scene& scene, AnalysisPla
                [&](const TableReader& options) { plan.wave_numbers = read_wave_numbers(options); });
 }
 
-// What was not given. Distances follow when the sizes of all disks are known (settle_analysis).
+// Sets defaults. Those of distances follow when the sizes of all disks are known (settle_analysis).
 void take_defaults(AnalysisPlan& plan) {
   if (plan.profile_bins == 0) plan.profile_bins = default_density_bins;
   if (plan.wave_numbers == 0) plan.wave_numbers = default_wave_numbers;

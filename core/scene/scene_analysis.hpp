@@ -1,4 +1,4 @@
-// Reading what a run shall measure on its way, the table [analysis].
+// Reads the table [analysis]: what a run has to measure.
 #pragma once
 
 #include "core/scene/place_of_key.hpp"
@@ -11,8 +11,8 @@ namespace carom {
 // InputError.
 AnalysisPlan read_analysis(const SceneOrigin& origin, const toml::table& table, const Scene& scene);
 
-// The rest, once the box is known: how far pairs are looked at, whether that fits into the box, and the bins. Throws
-// InputError.
+// Sets the rest once the box is known: the largest distance of pairs, and the bins. Throws InputError if they do not
+// fit into the box.
 void settle_analysis(Scene& scene, const PlaceOfKey& place);
 
 }  // namespace carom

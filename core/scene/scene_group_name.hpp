@@ -1,4 +1,4 @@
-// Names of groups in a scene file: giving one, and asking for the disks of one.
+// Names of groups in a scene file: reads the name of a group, and finds the group of a name.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace carom {
 
-// The value of "name" of a [[disks]] block; empty when absent. Throws InputError for what could not stand in a heading
-// of series.csv: a name has 1 to 40 letters, digits, '_' and '-', and begins with a letter.
+// The value of "name" of a [[disks]] block; empty when absent. Throws InputError unless it has 1 to 40 letters, digits,
+// '_' and '-' and begins with a letter, as headings of series.csv need.
 std::string read_group_name(const TableReader& group);
 
 // The ids of the disks of the group that `key` of owner names. Throws InputError with the nearest name.

@@ -28,7 +28,7 @@ constexpr std::string_view velocities_expected =
     "expected { maxwell = T }, { uniform = v }, a list of [vx, vy], { file = \"v.csv\" }, or { frame = \"DIR\" }";
 constexpr std::string_view source_velocities_expected = "expected { maxwell = T } or { uniform = v }";
 
-// What a radius or mass may be; other_key as of read_size.
+// The text of what a radius or mass may be. other_key: as in read_size.
 std::string size_expected(std::string_view other_key, Serves serves) {
   const bool any_number = serves == Serves::any_number;
   return fmt::format(
@@ -45,7 +45,7 @@ std::string_view only_key(const TableReader& owner, std::string_view name, const
   return table.begin()->first.str();
 }
 
-// The rows of the CSV file that the key "file" of law names; file gets the name as written.
+// The rows of the CSV file named by the key "file" of law; file is set to that name.
 std::vector<Vec2> read_csv_law(const TableReader& law, CsvPairs pairs, std::string& file) {
   const SceneOrigin& origin = law.origin();
   const std::string key = law.key("file");
@@ -56,7 +56,7 @@ std::vector<Vec2> read_csv_law(const TableReader& law, CsvPairs pairs, std::stri
   return parse_csv_pairs(text, file, key, pairs);
 }
 
-// What the radii of a frame are multiplied by: disks of time stepping overlap by a little.
+// The factor of the radii of a frame; useful since disks of time stepping overlap a little.
 double scale_of_radii(const TableReader& law, std::string_view name) {
   const std::optional<double> scale = law.number("scale");
   if (scale && name != "radius") {
@@ -65,8 +65,8 @@ double scale_of_radii(const TableReader& law, std::string_view name) {
   return scale.value_or(1.0);
 }
 
-// { frame = "DIR or trajectory" }, with index = n (from 1) or time = t; the last frame without. file gets what messages
-// call it. Relative paths start where the scene lies, as those of CSV files do.
+// { frame = "DIR or trajectory" }, with index = n (from 1) or time = t, or else the last frame. file is set to its name
+// in messages. Relative paths start in the folder of the scene, as for CSV files.
 SceneFrame read_frame(const TableReader& owner, std::string_view name, const toml::table& table, std::string& file) {
   const TableReader law(owner.origin(), owner.key(name), table, "frame");
   constexpr std::string_view expected = "expected { frame = \"DIR\" }, with index = n (from 1) or time = t";
@@ -94,7 +94,8 @@ SceneFrame read_frame(const TableReader& owner, std::string_view name, const tom
   }
 }
 
-// A list of values, written out or read from a file or frame (file), serves a group alone.
+// Throws InputError for a list of values (in the scene, or from `file`) that is not for a group: only groups have a
+// known number of disks.
 void check_serves(const TableReader& owner, std::string_view name, Serves serves, const std::string& file) {
   if (serves == Serves::a_group) return;
   owner.fail(name, file.empty() ? "is a list" : "is a list, that of " + file,
@@ -115,8 +116,7 @@ bool draws_velocities(const SceneOrigin& origin) {
   return physics != nullptr && (*physics)["diffusion"].value_or(0.0) > 0.0 && !(*physics)["accumulate"].value_or(false);
 }
 
-// The velocities of a frame as [[disks]] has them: in a box with a shear relative to the flow, without that of the run
-// that wrote them.
+// The velocities of a frame for [[disks]], without the shear flow of the run that wrote them.
 std::vector<Vec2> velocities_of(const TableReader& owner, SceneFrame frame, const std::string& file) {
   if (frame.brownian && !draws_velocities(owner.origin())) {
     owner.fail("velocities", fmt::format("are of {}, whose disks are Brownian: u / dt of a step", file),
@@ -183,7 +183,7 @@ SizeLaw read_lognormal_size(const TableReader& law) {
   return size;
 }
 
-// Each number of the list is `fine`, and there is one at least.
+// Throws InputError unless the list has numbers and fine() holds for each of them.
 template <class Fine>
 void check_each(const TableReader& law, std::string_view name, const std::vector<double>& numbers,
                 std::string_view expected, Fine fine) {
@@ -194,7 +194,7 @@ void check_each(const TableReader& law, std::string_view name, const std::vector
   }
 }
 
-// other_key: as of read_size.
+// other_key: as in read_size.
 SizeLaw read_choice_of_sizes(const TableReader& law, std::string_view other_key) {
   constexpr std::string_view expected =
       "expected { choice = [a, b], weights = [1, 2] } with numbers above 0; weights may be left out";

@@ -1,4 +1,4 @@
-// Reading how disks and sources get positions, velocities, radii and masses.
+// Reads the laws of positions, velocities, radii and masses of groups and sources.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,13 @@ namespace carom {
 // ... } likewise. Throws InputError for anything else, for a missing key, and for a CSV file that cannot be read.
 PositionLaw read_positions(const TableReader& group);
 
-// Which disks a law is for: those of a group may have a list, those of a source come in any number.
+// The disks that a law is for: a group's, which may have a list, or a source's, whose number is not known.
 enum class Serves : std::uint8_t { a_group, any_number };
 
 // The value of "velocities": { maxwell = T }, { uniform = v }, a list, { file = ... }; at rest when absent.
 VelocityLaw read_velocities(const TableReader& owner, Serves serves);
 
-// The spins of the disks in { frame = ... }; 0 where disks were smooth. file: gets what messages call it.
+// The spins of the disks in { frame = ... }; 0 if disks were smooth. file is set to its name in messages.
 std::vector<double> read_spins_of_frame(const TableReader& owner, const toml::table& table, std::string& file);
 
 // The value of "drift", [vx, vy]; 0 when absent.

@@ -1,4 +1,4 @@
-// Reading `motion = { ... }`, of a side of the box or an inner wall.
+// Reads `motion = { ... }` of a side of the box or an inner wall.
 #pragma once
 
 #include <string_view>
@@ -8,7 +8,7 @@
 
 namespace carom {
 
-// Which of the two keys that say how it moves there is, and what it says.
+// The kind of motion that a table gives, and its value.
 struct MotionKeys {
   SideMotion::Kind kind = SideMotion::Kind::none;
   std::string_view name;  // "velocity" or "vibrate"
@@ -17,10 +17,11 @@ struct MotionKeys {
   Dimension dimension() const { return kind == SideMotion::Kind::steady ? Dimension::speed : Dimension::length; }
 };
 
-// The table under `motion`, which is there; kind: its name in scene_keys.hpp. Throws InputError if it is no table.
+// The table under `motion`. kind: its name in scene_keys.hpp. Precondition: the key exists. Throws InputError if it is
+// not a table.
 TableReader motion_table(const TableReader& owner, std::string_view kind);
 
-// Throws InputError unless there is either a velocity or a vibration with its period.
+// Throws InputError unless there is either a velocity, or a vibration with its period.
 MotionKeys read_motion_keys(const TableReader& owner, const TableReader& motion);
 
 }  // namespace carom

@@ -1,4 +1,4 @@
-// How the scene file calls the values of the scene's enums, in the order of each.
+// The names of the values of enums in scene files, in the order of each enum.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ inline constexpr std::array<std::string_view, 3> side_kind_names{"wall", "period
 inline constexpr std::array<std::string_view, 2> vibration_shapes{"parabola", "sine"};
 inline constexpr std::array<std::string_view, 2> inner_wall_kind_names{"wall", "sink"};          // InnerWall::sink
 inline constexpr std::array<std::string_view, 3> method_names{"rollback", "pairwise", "exact"};  // Method
-// What run.method and --method may be: a method, or "auto" for the one that run.accuracy needs.
+// The values of run.method and --method: a method, or "auto" for the one that run.accuracy needs.
 inline constexpr std::array<std::string_view, 4> method_words{"rollback", "pairwise", "exact", "auto"};
 inline constexpr std::array<std::string_view, 3> trajectory_names{"none", "xyz", "h5md"};  // TrajectoryFormat
 // PositionLaw::Kind

@@ -1,4 +1,4 @@
-// Reading which disks a trajectory shows, how precisely, and how movies look.
+// Reads the table [output]: the disks and the precision of a trajectory, and the settings of movies.
 #pragma once
 
 #include "core/scene/place_of_key.hpp"
@@ -12,22 +12,22 @@ namespace carom {
 // else, and where no trajectory is written.
 Selection read_selection(const TableReader& output, const Scene& scene);
 
-// Throws InputError where the rectangle selected has no room in common with the box, whose size is known here.
+// Throws InputError if the selected rectangle does not overlap the box. Precondition: the size of the box is known.
 void check_selection(const Scene& scene, const PlaceOfKey& place);
 
-// Whether "precision" is "single". Throws InputError where it is given and there is no trajectory.
+// Whether "precision" is "single". Throws InputError if it is given without a trajectory.
 bool read_single_precision(const TableReader& output);
 
 // Whether "dimensions" is 3. Throws InputError for anything but 2 and 3, and unless trajectory is "h5md".
 bool read_third_dimension(const TableReader& output);
 
-// Whether "view" is true. Throws InputError where it is and no trajectory is written.
+// Whether "view" is true. Throws InputError if it is true and no trajectory is written.
 bool read_view(const TableReader& output);
 
-// Whether the plan has anything that is made of frames: only then "every" is t_end / 100 where it is absent.
+// Does any output consist of frames? Only then "every" has the default t_end / 100.
 bool wants_frames(const OutputPlan& plan);
 
-// "movie": whether there is one, and how it looks.
+// Reads "movie": whether one is wanted, and its settings.
 void read_movie(const TableReader& output, OutputPlan& plan);
 
 }  // namespace carom

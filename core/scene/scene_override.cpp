@@ -12,7 +12,7 @@ namespace carom {
 
 namespace {
 
-// Letters, digits and the marks of file names: what counts as a string although it has no quotes.
+// Is this a string that needs no quotes? It has letters, digits and the marks of file names only.
 bool is_bare_word(std::string_view s) {
   return !s.empty() && std::all_of(s.begin(), s.end(), [](char c) {
     return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '-' || c == '.' ||
@@ -40,8 +40,8 @@ toml::array& list_entry_owner(toml::array& list, std::string_view segment, std::
   return list;
 }
 
-// The table or list below node that segment names; a missing table is made, but not a list, of which next would be an
-// entry.
+// The table or list below node that segment names. A missing table is made; but not a missing list, that is, if `next`
+// is the number of an entry.
 toml::node& descend(toml::node& node, std::string_view segment, std::string_view next, const std::string& where) {
   if (toml::table* table = node.as_table()) {
     if (table->get(segment) == nullptr) {
@@ -62,7 +62,8 @@ toml::node& descend(toml::node& node, std::string_view segment, std::string_view
              "expected a key of the scene");
 }
 
-// What was expected of a value that cannot be read. The shell takes the quotes around a text that has blanks.
+// The text of what was expected instead of a value that cannot be read. (The shell removes the quotes around a text
+// with blanks.)
 std::string expected_value(const Override& change) {
   const std::string_view value = change.value;
   const bool text =

@@ -1,12 +1,12 @@
-// Changes made on the command line (--set), applied to the TOML tree before anything is checked.
+// Applies changes by the command line (--set) to the TOML tree, before anything is checked.
 #pragma once
 
 #include "core/scene/scene_reader.hpp"
 
 namespace carom {
 
-// Sets change.key to change.value in the tree; tables on the way that do not exist are made, entries of lists must
-// exist. A value that is not TOML but a bare word counts as a string. Throws InputError, located at "--set key".
+// Sets change.key to change.value in the tree. Missing tables along the key are made; entries of lists must exist. A
+// bare word is a string. Throws InputError, located at "--set key".
 void apply_override(toml::table& root, const Override& change);
 
 }  // namespace carom

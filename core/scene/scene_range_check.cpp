@@ -18,7 +18,7 @@ double longer_side(const Domain& box) {
   return std::max(box.width, box.height);
 }
 
-// value: of the key, which makes so many of `noun` until t_end.
+// Throws InputError if `count` is too large. value: of the key, which leads to so many of `noun` until t_end.
 void check_count(double count, double value, std::string_view key, std::string_view noun, double t_end,
                  const PlaceOfKey& place) {
   if (count <= most_steps) return;
@@ -28,12 +28,12 @@ void check_count(double count, double value, std::string_view key, std::string_v
 
 void check_period(const SideMotion& motion, const std::string& path, double t_end, const PlaceOfKey& place) {
   if (!motion.vibrates()) return;
-  // One more than there are, as SideMotion::piece counts on to the next.
+  // Rounded up, since SideMotion::piece may count one more.
   const double count = std::nextafter(t_end / motion.half(), HUGE_VAL);
   check_count(count, motion.period, path + ".motion.period", "half periods", t_end, place);
 }
 
-// distance: what the fastest disk flies until t_end; length.
+// distance: covered by the fastest disk until t_end; length.
 void check_flight(const Scene& scene, double distance, const std::string& where, const std::string& what) {
   const double crossings = distance / longer_side(scene.box);
   if (crossings <= most_crossings) return;
@@ -41,7 +41,7 @@ void check_flight(const Scene& scene, double distance, const std::string& where,
              fmt::format("expected at most 2^53 = {:g} times", most_crossings));
 }
 
-// what: has that speed.
+// what: the thing that has this speed, for messages.
 void check_speed(const Scene& scene, double speed, const std::string& where, const std::string& what) {
   if (!(speed <= magnitudes_of(Dimension::speed).most)) {
     fail_input(where, fmt::format("{} has a speed of {}", what, speed), expected_range(Dimension::speed));
@@ -60,7 +60,7 @@ void check_gravity(const Scene& scene, const PlaceOfKey& place) {
   const double t = scene.run.t_end;
   const auto check = [&](double part, double length, bool periodic) {
     if (part == 0.0) return;
-    // Between floor and ceiling no fall is longer than the box; through periodic sides it goes on.
+    // Between walls no fall is longer than the box; through periodic sides it never ends.
     const double speed = periodic ? 0.5 * part * t : std::sqrt(2.0 * part * length);
     check_flight(scene, speed * t, place("physics.gravity"), fmt::format("is {}: a disk that falls", given));
   };
@@ -114,7 +114,7 @@ void check_velocities(const Scene& scene, const VelocityLaw& law, double mass, c
                                most_crossings * longer_side(scene.box) / std::max(scene.run.t_end, 1e-300));
   for (std::size_t k = 0; k < law.list.size(); ++k) {
     const Vec2 v = law.list[k];
-    if (std::abs(v.x) <= 0.5 * most && std::abs(v.y) <= 0.5 * most) continue;  // the rule, at no cost
+    if (std::abs(v.x) <= 0.5 * most && std::abs(v.y) <= 0.5 * most) continue;  // the usual case, tested cheaply
     check(std::hypot(v.x, v.y), fmt::format("{}.{}", key, k), fmt::format("is [{}, {}]: it", v.x, v.y));
   }
 }

@@ -1,5 +1,5 @@
-// How large and how small the numbers of a scene may be: the ranges in which no product of the formulas overflows or
-// vanishes, and no count leaves its type.
+// The ranges of the numbers of a scene, such that no product in the formulas overflows or underflows, and every count
+// fits its type.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace carom {
 
-// What a number measures.
+// The dimension of a number.
 enum class Dimension : std::uint8_t {
   none,
   length,
@@ -26,7 +26,7 @@ enum class Dimension : std::uint8_t {
   frequency
 };
 
-// The numbers that a dimension may have: 0 where the key allows it, or a size from least to most.
+// The magnitudes allowed for a dimension, from least to most; also 0, if the key allows it.
 struct Magnitudes {
   Dimension dimension;
   std::string_view noun;  // "length"
@@ -35,9 +35,9 @@ struct Magnitudes {
   std::string_view why;
 };
 
-// Lengths L, times T and masses m are free within many more powers of ten than any physics has; the rest follows from
-// them. A double holds 1e-308 to 1e308. The largest products are v^2 L^2 (the discriminant of a contact time, and its
-// cross product squared) and the square of a momentum.
+// The ranges of lengths L, times T and masses m are far wider than any application needs; the others follow from them.
+// A double holds 1e-308 to 1e308. The largest products are v^2 L^2 (the discriminant of a contact time and the square
+// of its cross product) and the square of a momentum.
 inline constexpr std::array<Magnitudes, 10> magnitudes{{
     {Dimension::none, "number", "", 0.0, 1e308, "counted or compared with numbers of its own kind"},
     {Dimension::length, "length", "length", 1e-30, 1e30, "L^2 stays within 1e-60 and 1e60"},
@@ -52,7 +52,7 @@ inline constexpr std::array<Magnitudes, 10> magnitudes{{
     {Dimension::frequency, "rate", "1 / time", 1e-30, 1e30, "1 / T"},
 }};
 
-// Numbers against each other.
+// Bounds on combinations of numbers.
 inline constexpr double most_steps = 0x1p53;
 inline constexpr double most_emissions = 0x1p50;
 inline constexpr double most_radii = 0x1p40;
@@ -80,7 +80,7 @@ constexpr const Magnitudes& magnitudes_of(Dimension d) {
   return magnitudes[static_cast<std::size_t>(d)];
 }
 
-// Is it 0, or of a size within the range of the dimension?
+// Is the number 0, or its magnitude within the range of the dimension?
 bool in_range(Dimension dimension, double value);
 
 // "expected a length from 1e-30 to 1e+30".

@@ -27,8 +27,8 @@ const toml::node* child(const toml::node& node, std::string_view segment) {
   return list->get(index);
 }
 
-// Of the last key along a path that exists: its line in the file, or that of the last that has one; and its own path
-// where it has none, as it is a table that an override made.
+// The last key along a path that exists. line: its line in the file, or that of the last key along the path that has
+// one. path: its own, if it has no line because an override made it.
 struct LastKey {
   unsigned line = 1;
   std::string_view made;
@@ -49,13 +49,13 @@ LastKey last_key(const toml::table& root, std::string_view key) {
   return last;
 }
 
-// True when path is prefix, or lies below it.
+// Is path equal to prefix, or below it?
 bool lies_at_or_below(std::string_view path, std::string_view prefix) {
   return path == prefix ||
          (path.size() > prefix.size() && path.substr(0, prefix.size()) == prefix && path[prefix.size()] == '.');
 }
 
-// What was expected of a value that breaks the bound of its kind; empty if it keeps it.
+// The text of what was expected if the value breaks the bound of its kind; else empty.
 std::string_view broken_bound(KeyKind kind, double value) {
   switch (kind) {
     case KeyKind::positive:
@@ -69,7 +69,7 @@ std::string_view broken_bound(KeyKind kind, double value) {
   }
 }
 
-// The number that a row says of an absent key.
+// The default of a key, as a number.
 template <class Number>
 Number initial_number(const SceneKey& row) {
   Number value{};
@@ -86,8 +86,8 @@ std::string without_ticks(std::string_view markdown) {
   return text;
 }
 
-// " (gravity is a key of [physics])" for a key that other tables of a scene have, whatever key of this table is like it
-// (select is like seed); empty where none has it.
+// " (gravity is a key of [physics])" for a key that belongs to another table, even if a key of this table has a similar
+// name (select, seed); empty if no table has it.
 std::string where_it_belongs(std::string_view name) {
   std::string tables;
   for (const SceneTable& other : scene_tables()) {
@@ -98,7 +98,7 @@ std::string where_it_belongs(std::string_view name) {
   return tables.empty() ? "" : fmt::format(" ({} is a key of {})", name, tables);
 }
 
-// Of a decimal number that no double can hold: would it be nearer to 0 than 1 is?
+// Is the magnitude of a decimal number, which is out of the range of a double, below 1?
 bool is_below_one(const std::string& number) {
   const std::size_t e = number.find_first_of("eE");
   if (e != std::string::npos) return number.compare(e + 1, 1, "-") == 0;
@@ -106,7 +106,7 @@ bool is_below_one(const std::string& number) {
   return first != std::string::npos && number[first] == '.';
 }
 
-// What a string is: "a string", or the number that it would be if it were not too large or too small.
+// "a string", or, for a number out of range (which --set passes on as a string), a text that says so.
 std::string text_name(const std::string& text) {
   const char* const last = text.data() + text.size();
   double value = 0.0;
@@ -125,13 +125,13 @@ std::string text_name(const std::string& text) {
   return fmt::format("{}, too large for the 64 bits of a whole number; write it as {:.17g}", text, value);
 }
 
-// Is it a length of a box that the scene gives by a packing fraction, and not by this key?
+// Is this the width or height of a box whose size the scene gives by a packing fraction?
 bool is_made_to_fit(const toml::table* root, std::string_view key) {
   if (root == nullptr || (key != "box.width" && key != "box.height")) return false;
   return root->at_path("box.packing_fraction") && !root->at_path(key);
 }
 
-constexpr double largest_exact_count = 9007199254740992.0;  // 2^53: above it a float cannot tell neighbours apart
+constexpr double largest_exact_count = 9007199254740992.0;  // 2^53: above it not all whole numbers are doubles
 
 }  // namespace
 
@@ -221,7 +221,7 @@ std::vector<double> as_numbers(const SceneOrigin& origin, const std::string& key
   numbers.reserve(list.size());
   for (std::size_t i = 0; i < list.size(); ++i) {
     const auto* number = list[i].as_floating_point();
-    const bool plain = number != nullptr && std::isfinite(number->get());  // spares a million key paths
+    const bool plain = number != nullptr && std::isfinite(number->get());  // avoids making a million key paths
     numbers.push_back(plain ? number->get() : as_number(origin, fmt::format("{}.{}", key, i), list[i]));
   }
   return numbers;
@@ -287,7 +287,7 @@ std::optional<double> TableReader::number(std::string_view name) const {
   if (!in_range(key_row.dimension, value)) {
     fail(name, fmt::format("is {}", value), expected_range(key_row.dimension));
   }
-  return value == 0.0 ? 0.0 : value;  // no zero with a sign: t = -0 in a message
+  return value == 0.0 ? 0.0 : value;  // no -0, for messages
 }
 
 std::optional<Count> TableReader::count(std::string_view name) const {

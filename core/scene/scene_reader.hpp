@@ -1,5 +1,5 @@
-// Typed access to the tables of a scene file, with the place of every key for messages. Only the scene_*.cpp files
-// that walk the TOML tree include this.
+// Typed access to the tables of a scene file, with the place of every key for messages. Only the scene_*.cpp files that
+// read the TOML tree include this.
 #pragma once
 
 #include <optional>
@@ -10,13 +10,15 @@
 // One translation unit (scene_reader.cpp) holds toml++ compiled; the others see declarations only.
 #define TOML_HEADER_ONLY 0
 #define TOML_ENABLE_FORMATTERS 0
-// toml++ 3.3 asserts things that a malformed file can break ("[" and then a stray character) although the code behind
-// the assertion reports them properly; with NDEBUG and clang it even assumes them. So neither: no assertion at all.
+// toml++ 3.3 asserts conditions that a malformed file can break ("[" and then a stray character), although the code
+// after the assertion reports them properly; with NDEBUG and clang it even assumes them. So its assertions are switched
+// off.
 #pragma push_macro("NDEBUG")
 #undef NDEBUG
 #define TOML_ASSERT(expression) static_cast<void>(0)
-// Its table of white space declares unreachable what many characters reach (U+00A7 after the backslash that ends a line
-// of a string, U+FDBF after a number: issues 190 and 295 of marzer/tomlplusplus). They are no white space: false.
+// Its test for white space declares a branch unreachable that many characters reach (U+00A7 after the backslash that
+// ends a line of a string, U+FDBF after a number: issues 190 and 295 of marzer/tomlplusplus). They are not white space,
+// so the branch returns false.
 #include <toml++/impl/preprocessor.h>
 #pragma push_macro("TOML_UNREACHABLE")
 #undef TOML_UNREACHABLE
@@ -33,27 +35,28 @@
 
 namespace carom {
 
-// Where a scene came from. Key paths are written as in --set: "physics.gravity", "disks.0.radius".
+// The source of a scene, for messages and relative paths. Keys are written as in --set: "physics.gravity",
+// "disks.0.radius".
 struct SceneOrigin {
   std::string name;    // of the file, as messages show it
   std::string folder;  // where relative CSV paths start
   const toml::table* root = nullptr;
   std::vector<Override> overrides;
-  FrameReader frames;  // how to read a frame of a trajectory; empty where there is no way to
+  FrameReader frames;  // reads a frame of a trajectory; empty if that is not possible
 
-  // "file:line: key", or "--set key" where an override made it. A missing key has the place of the table it should be
-  // in; the width or height of a box that is made to fit, that of the packing fraction, and is named behind it.
+  // "file:line: key", or "--set key" if an override set it. A missing key has the place of its table; the width or
+  // height that follows from a packing fraction has the place of that, followed by its own name.
   std::string where(std::string_view key) const;
 
   // Throws InputError: where(key), what is wrong, what was expected.
   [[noreturn]] void fail(std::string_view key, std::string_view what, std::string_view expected) const;
 };
 
-// "a string", "a list", ...: how messages call the type of a value. --set takes what is no value of TOML for a string:
-// of a number that TOML cannot hold it says so.
+// The type of a value in messages: "a string", "a list", ... A number out of range, which --set passes on as a string,
+// is named as such.
 std::string type_name(const toml::node& node);
 
-// One value of the type asked for; key is its path. Each throws InputError for another type; numbers must be finite.
+// The value as the type in the name; key is its path. All throw InputError for another type; numbers must be finite.
 double as_number(const SceneOrigin& origin, const std::string& key, const toml::node& node);
 // A whole number, at least the least one.
 Count as_count(const SceneOrigin& origin, const std::string& key, const toml::node& node, Count least = 0);
@@ -65,12 +68,11 @@ std::vector<double> as_numbers(const SceneOrigin& origin, const std::string& key
 // A list of [x, y].
 std::vector<Vec2> as_pairs(const SceneOrigin& origin, const std::string& key, const toml::node& node);
 
-// One table and its key path ("" for the root). What its keys are and may be, scene_keys.hpp says. Missing keys read as
-// nullopt.
+// One table and its key path ("" for the root). Its keys and their values are defined in scene_keys.hpp. Missing keys
+// read as nullopt.
 class TableReader {
  public:
-  // Throws InputError when the table has a key that it should not have. kind: its name in scene_keys.hpp, where the
-  // path does not tell.
+  // Throws InputError if the table has an unknown key. kind: its name in scene_keys.hpp, if that differs from the path.
   TableReader(const SceneOrigin& origin, std::string path, const toml::table& table, std::string_view kind = {});
 
   std::string key(std::string_view name) const;  // its full path
@@ -78,7 +80,7 @@ class TableReader {
   // Throws InputError when the key is missing.
   const toml::node& require(std::string_view name, std::string_view expected) const;
 
-  // Held against the bounds and the range of the key's row.
+  // Checked against the bounds and the range in the key's row.
   std::optional<double> number(std::string_view name) const;
   std::optional<Count> count(std::string_view name) const;
   std::optional<bool> flag(std::string_view name) const;
@@ -86,7 +88,7 @@ class TableReader {
   // One of the row's names, as its index.
   std::optional<std::size_t> choice(std::string_view name) const;
 
-  // The same, or what the row says of an absent key.
+  // The same, or the default in the row.
   double number_or_initial(std::string_view name) const;
   Count count_or_initial(std::string_view name) const;
   bool flag_or_initial(std::string_view name) const;
@@ -96,7 +98,7 @@ class TableReader {
   const SceneOrigin& origin() const { return *origin_; }
 
  private:
-  // The row of a key that is read. Throws std::logic_error where scene_keys.cpp has none.
+  // The row of a key. Throws std::logic_error if there is none.
   const SceneKey& row(std::string_view name) const;
 
   const SceneOrigin* origin_;

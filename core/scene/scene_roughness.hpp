@@ -1,4 +1,4 @@
-// How rough disks and walls are, and how disks spin at first.
+// Reads the roughness of disks and walls, and the initial spins.
 #pragma once
 
 #include <string_view>
@@ -10,17 +10,17 @@
 namespace carom {
 
 // Reads "roughness" of [physics] and "wall_roughness" of [box]; smooth when absent. Throws InputError for anything that
-// is not a roughness, and where walls are to be rough but not the disks.
+// is not a roughness, and for rough walls without rough disks.
 Surfaces read_surfaces(const SceneOrigin& origin);
 
 // The value of "spin" or "spin_temperature" of a group or a source; no spin when both are absent.
 SpinLaw read_spins(const TableReader& owner);
 
-// What spins must be for the scene as a whole: there only where disks are rough, as many as disks, and so slow that
-// surfaces are no faster than disks may be. Rough disks do not go with Brownian motion.
+// Checks spins against the whole scene: there must be none for smooth disks, as many as disks, and none so fast that
+// surfaces exceed the largest speed. Rejects rough disks with Brownian motion.
 void check_surfaces(const Scene& scene, const PlaceOfKey& place);
 
-// The same of one group or source, whose disks have this mass and radius at least and at most. path: of its table.
+// Checks the spins of one group or source. smallest_mass, largest_radius: of its disks. path: of its table.
 void check_spins(const Scene& scene, const SpinLaw& law, double smallest_mass, double largest_radius,
                  std::string_view path, const PlaceOfKey& place);
 

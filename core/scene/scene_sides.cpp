@@ -22,12 +22,12 @@ bool is_vertical(std::size_t s) {
   return s < 2;
 }
 
-// Of the rectangle, across this side.
+// The length of the box perpendicular to this side.
 double length_across(const Domain& box, std::size_t s) {
   return is_vertical(s) ? box.width : box.height;
 }
 
-// A key of a wall's table that another kind of side may not have.
+// Throws InputError for a key that only walls may have, if this side is none.
 void require_wall(const TableReader& side, std::string_view name, SideKind kind) {
   if (side.find(name) == nullptr || kind == SideKind::wall) return;
   const auto kind_name = side_kind_names[static_cast<std::size_t>(kind)];
@@ -85,7 +85,7 @@ std::string key_of(std::size_t s, std::string_view key) {
   return fmt::format("box.{}.{}", side_names[s], key);
 }
 
-// Its inset at time 0, or at the middle of its vibration.
+// The inset of a side at time 0, or in the middle of its vibration.
 double first_inset(const Scene& scene, std::size_t s) {
   const SideMotion& motion = scene.box.motions[s];
   if (scene.side_places[s]) {
@@ -100,7 +100,7 @@ void settle_side(Scene& scene, std::size_t s, const PlaceOfKey& place) {
   const double length = length_across(scene.box, s);
   const double t_end = scene.run.t_end;
   motion.furthest = motion.largest_inset(t_end);
-  // One that comes to the edge in decimals, and beyond it by rounding alone, stays in the box.
+  // A side that reaches the edge in decimals may be beyond it by rounding.
   const double slack = place_slack(scene.box, 0.0);
   if (motion.least_inset(t_end) >= -slack && motion.furthest <= length + slack) return;
   const std::string key = key_of(s, scene.side_places[s] ? "place" : "motion");
@@ -108,7 +108,7 @@ void settle_side(Scene& scene, std::size_t s, const PlaceOfKey& place) {
              fmt::format("expected it to stay between 0 and {}", length));
 }
 
-// The least distance of two opposite sides until t_end, or less than that.
+// A lower bound on the distance of two opposite sides until t_end.
 double least_distance(const Domain& box, std::size_t s, double t_end) {
   const SideMotion& a = box.motions[s];
   const SideMotion& b = box.motions[s + 1];

@@ -1,4 +1,4 @@
-// Reading what the four sides of the box do, the keys left to top of [box].
+// Reads the four sides of the box, the keys left, right, bottom and top of [box].
 #pragma once
 
 #include "core/scene/place_of_key.hpp"
@@ -7,11 +7,11 @@
 
 namespace carom {
 
-// Each is a name, or a table that says more of a wall; with them the rate of a shear. Throws InputError.
+// Each is a name, or a table with the properties of a wall. Also reads the rate of a shear. Throws InputError.
 void read_sides(const TableReader& box, Scene& scene);
 
-// What is left of a shear, and where moving sides begin, once box and t_end are known, and whether they stay in the box
-// and leave room for a disk of the largest radius. Throws InputError.
+// To be called once box and t_end are known: settles the shear and the initial places of moving sides. Throws
+// InputError unless the sides stay in the box and leave room for a disk of the largest radius.
 void settle_sides(Scene& scene, double largest_radius, const PlaceOfKey& place);
 
 }  // namespace carom

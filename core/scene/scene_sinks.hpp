@@ -1,4 +1,4 @@
-// The sinks of a scene by name.
+// The sinks of a scene and their names.
 #pragma once
 
 #include <string>
@@ -11,13 +11,13 @@ namespace carom {
 
 struct SceneSink {
   SinkNumber number;
-  std::string name;  // of a side, or of the [[walls]] table, as messages call it: left, walls.2
+  std::string name;  // of the side, or of the [[walls]] table: left, walls.2
 };
 
-// In order of their numbers.
+// In the order of their numbers.
 std::vector<SceneSink> sinks_of(const Scene& scene);
 
-// How many it took so far.
+// The number of disks that the sink has taken so far.
 Count taken_by(const SceneSink& sink, const State& state);
 
 }  // namespace carom

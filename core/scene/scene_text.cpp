@@ -18,7 +18,7 @@ std::size_t index(Enum value) {
   return static_cast<std::size_t>(value);
 }
 
-// At most 17 significant digits, the fewest that give the same double back; always a TOML float, so that -0.0 stays.
+// The fewest digits that give the same double back, at most 17; always a TOML float, so that -0.0 stays.
 std::string decimal(double value) {
   std::string text = fmt::format("{}", value);
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
@@ -51,7 +51,7 @@ std::string list_of(const std::vector<T>& values, Write write) {
   return text + "]";
 }
 
-// An inline table has no line breaks.
+// On one line, since an inline table has no line breaks.
 std::string list_in_line(const std::vector<double>& values) {
   std::string text;
   for (const double value : values) text += (text.empty() ? "" : ", ") + decimal(value);
@@ -87,7 +87,7 @@ std::string positions_text(const PositionLaw& law) {
   return quoted_toml(position_names[index(law.kind)]);
 }
 
-// Empty where there is none.
+// Empty if there is no region.
 std::string region_line(const PositionLaw& law) {
   if (!law.region) return "";
   const StartRegion& r = *law.region;
@@ -110,20 +110,21 @@ std::string velocities_line(const VelocityLaw& law) {
   return fmt::format("velocities = {}\n", list_of(law.list, pair));
 }
 
-// Empty where disks do not spin at first.
+// Empty if disks have no initial spin.
 std::string spin_line(const SpinLaw& law) {
   if (law.temperature > 0.0) return fmt::format("spin_temperature = {}\n", decimal(law.temperature));
   if (!law.list.empty()) return fmt::format("spin = {}\n", list_of(law.list, decimal));
   return law.value == 0.0 ? "" : fmt::format("spin = {}\n", decimal(law.value));
 }
 
-// The keys of a roughness that do not stand at their defaults, without braces.
+// The keys of a roughness that differ from their defaults, without braces.
 std::string roughness_text(const Roughness& r) {
   const std::string friction = r.friction < HUGE_VAL ? fmt::format(", friction = {}", decimal(r.friction)) : "";
   return fmt::format("tangential_restitution = {}{}", decimal(r.restitution), friction);
 }
 
-// wall_restitution: what sides without a restitution of their own have. A side that is no wall has no other.
+// wall_restitution, the value of sides without a restitution of their own; sides that are not walls always have that
+// value.
 double common_restitution(const Domain& box) {
   for (const Side side : all_sides) {
     if (box.side(side) != SideKind::wall) return box.restitution(side);
@@ -230,7 +231,7 @@ std::string wall_text(const InnerWall& wall) {
                      wall_motion_line(wall.motion));
 }
 
-// Empty where nothing grows.
+// Empty if nothing grows.
 std::string growth_text(const Scene& scene) {
   for (const DiskGroup& group : scene.groups) {
     if (group.positions.kind != PositionLaw::Kind::growth) continue;
@@ -257,7 +258,8 @@ std::string source_text(const Source& source) {
 
 std::string run_text(const RunPlan& run) {
   std::string text = "\n[run]\n";
-  // The choice itself, so that the file gives this run even where another version would choose differently.
+  // The chosen method and step are written, so that the file gives this run even if another version would choose
+  // differently.
   if (run.automatic)
     text += fmt::format("# chosen by method = \"auto\", accuracy = {}: {}\n", run.accuracy, run.choice);
   text += fmt::format("method = \"{}\"\n", method_names[index(run.method)]);
@@ -265,7 +267,7 @@ std::string run_text(const RunPlan& run) {
   return text + fmt::format("t_end = {}\n", decimal(run.t_end));
 }
 
-// Empty where the trajectory shows all disks in full precision, which is what absent keys mean.
+// Empty if the trajectory has all disks in full precision, which are the defaults.
 std::string selection_lines(const OutputPlan& output) {
   const Selection& select = output.select;
   std::string text;
@@ -292,7 +294,7 @@ std::string movie_text(const OutputPlan& output) {
 }
 
 std::string output_text(const OutputPlan& output) {
-  // Without frames there is no time between them, and none to be taken over where some are asked for later.
+  // Without frames no interval is written, so that none is taken over if frames are asked for later.
   const bool timed = output.every > 0.0 || wants_frames(output);
   const std::string every = timed ? fmt::format("every = {}\n", decimal(output.every)) : "";
   const std::string checkpoint =
@@ -304,7 +306,7 @@ std::string output_text(const OutputPlan& output) {
          (output.view ? "view = true\n" : "") + checkpoint;
 }
 
-// Empty where nothing is measured.
+// Empty if nothing is measured.
 std::string analysis_text(const AnalysisPlan& plan) {
   if (!plan.any()) return "";
   std::vector<std::string> names;

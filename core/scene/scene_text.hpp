@@ -1,4 +1,4 @@
-// Writing a scene back, with every default.
+// Writes a scene as TOML.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Reading physics.thermostat, and what it may stand beside.
+// Reads physics.thermostat, and checks it against the rest of the scene.
 #pragma once
 
 #include "core/scene/place_of_key.hpp"
@@ -10,8 +10,8 @@ namespace carom {
 // The thermostat of [physics], or none. Throws InputError.
 Thermostat read_thermostat(const TableReader& physics);
 
-// That there is a time between its kicks, no more than one in a step, that they are not too strong, and that disks have
-// velocities. Throws InputError.
+// Throws InputError unless the time between kicks is known, there is at most one kick in a step, kicks are not too
+// strong, and velocities are physical.
 void check_thermostat(const Scene& scene, const PlaceOfKey& place);
 
 }  // namespace carom

@@ -11,7 +11,7 @@ namespace carom {
 
 namespace {
 
-// Where a line of the text begins, lines numbered from 1; npos where it has fewer.
+// The beginning of a line of the text, counted from 1; npos if there are fewer lines.
 std::size_t begin_of_line(std::string_view text, std::size_t line) {
   std::size_t begin = 0;
   for (std::size_t k = 1; k < line && begin != std::string::npos; ++k) {
@@ -38,8 +38,8 @@ bool quote_seed(std::string& text, std::size_t line) {
   return true;
 }
 
-// One past the string that starts at text[at], a quote of either kind, single or threefold. A string that does not end
-// ends with its line, or with the text; the parser complains about it.
+// The end of the string that starts with the quote at text[at], which may be of either kind, single or threefold. A
+// string without a closing quote ends with its line, or with the text; the parser will report it.
 std::size_t skip_string(std::string_view text, std::size_t at) {
   const char quote = text[at];
   const std::string closing(text.substr(at, 3) == std::string(3, quote) ? 3 : 1, quote);
@@ -55,8 +55,8 @@ std::size_t skip_string(std::string_view text, std::size_t at) {
   return text.size();
 }
 
-// What the parser, which stopped at this place, would rather have had. Two things are often written behind a number: a
-// decimal comma and a unit.
+// The text of what was expected where the parser stopped. Two common errors after a number are a decimal comma and a
+// unit.
 std::string expected_at(std::string_view text, const toml::source_position& place) {
   const std::string valid = "expected valid TOML 1.0";
   const std::size_t begin = begin_of_line(text, std::max<std::size_t>(1, place.line));

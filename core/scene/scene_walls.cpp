@@ -34,7 +34,7 @@ std::vector<Vec2> read_points(const TableReader& reader) {
   return points;
 }
 
-// A segment shorter than lengths may be has no direction: the square of its length vanishes.
+// A segment shorter than the least length has no direction: the square of its length underflows.
 void check_lengths(const TableReader& reader, const std::vector<Vec2>& points) {
   const std::string_view key = reader.find("points") != nullptr ? "points" : "to";
   for (std::size_t k = 1; k < points.size(); ++k) {

@@ -1,4 +1,4 @@
-// Reading [[walls]]: inner walls.
+// Reads [[walls]]: inner walls.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace carom {
 
-// One table: from and to, or points. Throws InputError for anything that is no line of segments. That it lies in the
-// box is for scene_check.hpp to say.
+// One table, with from and to, or points. Throws InputError for anything that is not a line of segments. Whether it
+// lies in the box is checked by scene_check.hpp.
 InnerWall read_wall(const SceneOrigin& origin, const std::string& path, const toml::table& table);
 
 }  // namespace carom

@@ -8,7 +8,7 @@ namespace carom {
 
 namespace {
 
-// The value whose share of all weights, laid end to end, holds u in (0, 1).
+// Chooses a value with a probability in proportion to its weight, by u uniform in (0, 1).
 double choose(const SizeLaw& law, double u) {
   double all = 0.0;
   for (const double weight : law.weights) all += weight;
@@ -16,7 +16,7 @@ double choose(const SizeLaw& law, double u) {
   std::size_t chosen = 0;
   for (std::size_t k = 0; k < law.weights.size(); ++k) {
     if (law.weights[k] == 0.0) continue;
-    chosen = k;  // the last one with a weight, should rounding leave some rest
+    chosen = k;  // the last value with a weight, in case rounding leaves a remainder
     rest -= law.weights[k];
     if (rest < 0.0) break;
   }

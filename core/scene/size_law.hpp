@@ -19,25 +19,24 @@ struct DiskSize {
 DiskSize draw_size(const SizeLaw& radius, const SizeLaw& mass, std::uint64_t seed, Stream radius_stream,
                    Stream mass_stream, DiskId id, Count k);
 
-// The least and the largest that a law can give, rounding aside. Precondition: it is not from_other.
+// The least and the largest value of a law, up to rounding. Precondition: it is not from_other.
 struct SizeRange {
   double low = 0.0, high = 0.0;
 };
 SizeRange size_range(const SizeLaw& law);
 
-// True when every disk gets the same radius and mass, so that one draw tells them all.
+// Do all disks get the same radius and mass?
 bool same_for_all(const SizeLaw& radius, const SizeLaw& mass);
 
-// What a group's sizes amount to, without storing them.
+// Sums over the sizes of a group, computed without storing them.
 struct SizeSummary {
   DiskSize smallest, largest;             // smallest and largest radius and mass, each by itself; 0 for an empty group
   double radius_squared = 0.0;            // sum of r^2, in id order
-  double mass = 0.0, inverse_mass = 0.0;  // sums of m and of 1 / m, likewise; a fixed disk's are without meaning
+  double mass = 0.0, inverse_mass = 0.0;  // sums of m and of 1 / m, in id order; meaningless for fixed disks
 };
 SizeSummary summarise_sizes(const DiskGroup& group, std::uint64_t seed, DiskId first_id);
 
-// The least and the largest radius and mass that a group or a source with these laws can give. Precondition: not both
-// are from_other.
+// The least and the largest radius and mass from these laws. Precondition: not both are from_other.
 std::pair<DiskSize, DiskSize> ends_of_sizes(const SizeLaw& radius, const SizeLaw& mass);
 
 }  // namespace carom

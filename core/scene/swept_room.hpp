@@ -1,4 +1,4 @@
-// What sides that move come upon: obstacles and places of sources that stand still.
+// The times at which moving sides reach rectangles at rest, such as obstacles or regions of sources.
 #pragma once
 
 #include <cmath>
@@ -7,14 +7,14 @@
 
 namespace carom {
 
-// A side that moves, and when it comes upon something; time HUGE_VAL: never.
+// A moving side, and the time at which it reaches something; HUGE_VAL: never.
 struct Sweep {
   Side side = Side::left;
   double time = HUGE_VAL;
   bool happens() const { return time < HUGE_VAL; }
 };
 
-// How far a side must come into the box to reach the rectangle from low to high; length.
+// The inset of a side at which it reaches the rectangle [low, high]; length.
 inline double inset_to_reach(const Domain& box, Side side, Vec2 low, Vec2 high) {
   switch (side) {
     case Side::left:
@@ -28,13 +28,13 @@ inline double inset_to_reach(const Domain& box, Side side, Vec2 low, Vec2 high) 
   }
 }
 
-// When a side moves into the rectangle until t_end, by more than `slack` (length).
+// The time until t_end at which a side has moved into the rectangle by more than `slack` (length).
 inline Sweep sweep_of(const Domain& box, Side side, Vec2 low, Vec2 high, double slack, double t_end) {
   const double limit = inset_to_reach(box, side, low, high) + slack;
   return {side, box.motions[static_cast<std::size_t>(side)].first_time_beyond(limit, t_end)};
 }
 
-// The first of all sides.
+// The earliest of all sides.
 inline Sweep first_sweep(const Domain& box, Vec2 low, Vec2 high, double slack, double t_end) {
   Sweep first;
   for (const Side side : all_sides) {
