@@ -16,7 +16,7 @@ namespace carom {
 
 namespace {
 
-// Fixed disks stay where they are, sides that move may not come that far.
+// A moving side must not run into a fixed disk.
 void check_clear_of_sides(const Scene& scene, const Obstacle& o) {
   const Vec2 low{o.x - o.radius, o.y - o.radius};
   const Vec2 high{o.x + o.radius, o.y + o.radius};
@@ -34,7 +34,7 @@ Scene inside_moving_sides(const Scene& scene) {
   Scene inner = scene;
   const auto& place = scene.box.places;
   inner.box.motions = {};
-  inner.box.inner_walls_move = false;  // at time 0 they are where the scene has them
+  inner.box.inner_walls_move = false;  // at time 0 they are at their places of the scene
   inner.box.places = {};
   inner.box.width -= place[0].inset + place[1].inset;
   inner.box.height -= place[2].inset + place[3].inset;

@@ -1,4 +1,4 @@
-// How a scene starts whose sides move: in the room between them.
+// The start of a scene with moving sides: disks are placed between them.
 #pragma once
 
 #include "core/disks/state.hpp"
@@ -6,12 +6,12 @@
 
 namespace carom {
 
-// The scene in a box that ends where its moving sides stand at time 0, none of which moves; coordinates are that box's.
-// Throws InputError where a region reaches beyond a side.
+// The scene in the smaller box between its moving sides at time 0, as sides at rest; coordinates are those of that box.
+// Throws InputError if a region reaches beyond a side.
 Scene inside_moving_sides(const Scene& scene);
 
-// The state of inside_moving_sides(scene) in the scene's own coordinates. Throws InputError where a side runs into a
-// fixed disk until run.t_end.
+// Converts a state of inside_moving_sides(scene) to the scene's own coordinates. Throws InputError if a side runs into
+// a fixed disk until run.t_end.
 State moved_back(const Scene& scene, State state);
 
 }  // namespace carom

@@ -10,7 +10,7 @@ namespace carom {
 
 namespace {
 
-// The sites of one row, (column + shift) spacing for columns first to last.
+// One row: sites at (column + shift) spacing for columns first to last.
 struct Row {
   double shift = 0.0;
   double first = 0.0, last = -1.0;
@@ -33,8 +33,7 @@ Row row_at(const CircleLattice& lattice, double spacing, double row) {
   return {shift, -std::floor(half + shift), std::floor(half - shift)};
 }
 
-// How many sites there are, counted up to `enough` or a little further: a large circle may have more rows than sites
-// are wanted.
+// The number of sites. Counting stops soon after `enough`: a large circle may have very many rows.
 double sites(const CircleLattice& lattice, double spacing, double enough) {
   const double last = last_row(lattice, spacing);
   double all = 0.0;
@@ -45,12 +44,13 @@ double sites(const CircleLattice& lattice, double spacing, double enough) {
   return all;
 }
 
-// Wide enough that the site at the centre is alone.
+// A spacing at which only the site at the centre lies in the circle.
 double spacing_of_one(const CircleLattice& lattice) {
   return 2.0 * lattice.reach + 2.0 * lattice.diameter;
 }
 
-// The widest spacing with room for so many, by bisection: their number falls, all but steadily, as it grows.
+// The widest spacing with room for `count` sites, by bisection: the number of sites falls, nearly monotonically, as the
+// spacing grows.
 double widest_spacing(const CircleLattice& lattice, double count) {
   double fits = lattice.diameter;
   double too_wide = spacing_of_one(lattice);
@@ -69,7 +69,7 @@ struct Site {
 }  // namespace
 
 Count circle_capacity(const CircleLattice& lattice) {
-  constexpr double most = 4.3e9;  // more than disks have ids
+  constexpr double most = 4.3e9;  // more than there are ids
   return static_cast<Count>(std::min(sites(lattice, lattice.diameter, most), most));
 }
 

@@ -26,7 +26,7 @@ namespace carom {
 
 namespace {
 
-// A column becomes one number where all have it.
+// Replaces a column by one number if all entries are equal.
 void share_where_equal(std::vector<double>& column, double& common) {
   common = 0.0;
   if (std::adjacent_find(column.begin(), column.end(), std::not_equal_to<>()) != column.end()) return;
@@ -34,7 +34,7 @@ void share_where_equal(std::vector<double>& column, double& common) {
   column = {};
 }
 
-// One radius and mass for all disks, if the laws say so; columns otherwise.
+// Sets one radius and mass for all disks if the laws give one; columns otherwise.
 void set_sizes(const Scene& scene, Disks& disks, std::size_t n) {
   const auto size_of_first = [&](const DiskGroup& g) {
     return draw_size(g.radius, g.mass, scene.seed, Stream::radius, Stream::mass, 0, 0);
@@ -66,7 +66,8 @@ void set_sizes(const Scene& scene, Disks& disks, std::size_t n) {
   share_where_equal(disks.mass, disks.common_mass);
 }
 
-// Without disks the first source's sizes, if it has one for all, spare the columns that emission would need.
+// A scene that starts without disks takes the size of its first source as common radius and mass, if that has one size:
+// then emitted disks need no columns.
 void set_sizes_of_source(const Scene& scene, Disks& disks) {
   if (scene.sources.empty()) return;
   const Source& source = scene.sources[0];
@@ -77,7 +78,8 @@ void set_sizes_of_source(const Scene& scene, Disks& disks) {
   disks.common_mass = size.mass;
 }
 
-// A centre given along one axis, checked against its two sides. The upper end of a periodic axis is the lower one.
+// A coordinate that the scene gives, checked against the two sides of its axis. The upper end of a periodic axis
+// becomes the lower one.
 double checked_coordinate(double c, double length, bool periodic, double radius, bool& inside) {
   if (periodic) {
     inside = inside && c >= 0.0 && c <= length;
@@ -88,7 +90,7 @@ double checked_coordinate(double c, double length, bool periodic, double radius,
   return c;
 }
 
-// What a message calls the room for disks: the box, or what sides that move leave of it at time 0.
+// The name, in messages, of the box or of the room between moving sides at time 0.
 std::string room_text(const Domain& box) {
   if (!box.has_moving_side()) return fmt::format("inside the box of {} x {}", box.width, box.height);
   return fmt::format("between the sides at time 0, which are at x = {:g} and {:g}, y = {:g} and {:g}",
@@ -96,7 +98,7 @@ std::string room_text(const Domain& box) {
                      box.place(Side::bottom).inset, box.height - box.place(Side::top).inset);
 }
 
-// told: the scene as the user has it, where `scene` is what initial_state makes of it.
+// told: the scene as the user wrote it; `scene` is the one between moving sides, at rest.
 void place_listed(const Scene& scene, const Scene& told, std::size_t group, DiskId first_id, Disks& disks) {
   const PositionLaw& law = scene.groups[group].positions;
   const Domain& box = scene.box;
@@ -104,7 +106,7 @@ void place_listed(const Scene& scene, const Scene& told, std::size_t group, Disk
     const std::size_t i = first_id + k;
     const double radius = disks.radius_of(i);
     bool inside = true;
-    // A fixed disk may stick out of the box.
+    // A fixed disk may reach out of the box.
     const double room = scene.groups[group].fixed ? 0.0 : radius;
     disks.x[i] = checked_coordinate(law.list[k].x, box.width, box.periodic_x(), room, inside);
     disks.y[i] = checked_coordinate(law.list[k].y, box.height, box.periodic_y(), room, inside);
@@ -148,8 +150,8 @@ void place_on_lattice(const Scene& scene, std::size_t group, DiskId first_id, Di
                  : "expected centres r1 + r2 or more apart");
 }
 
-// Puts the disks that have their places into the grid, large ones first, and checks them against each other. Obstacles
-// are there before and are not checked: they may overlap each other.
+// Inserts disks with given places into the grid, large ones first, and checks them against each other. Obstacles are
+// inserted before and are not checked: they may overlap each other.
 void insert_placed(const Scene& scene, const Disks& disks, std::vector<std::uint32_t> members, PlacementGrid& grid) {
   if (!disks.radius.empty()) {
     std::stable_sort(members.begin(), members.end(),
@@ -173,8 +175,8 @@ void check_clear_of_walls(const Scene& scene, const Domain& box, const Disks& di
   });
 }
 
-// Groups with a region go first, each by itself: the others find room elsewhere, too. Where disks grow, fixed ones
-// only. told: as of place_listed.
+// Places all groups. Random groups with a region come first, each by itself, since the others can be placed anywhere.
+// If disks grow, only fixed disks are placed here. told: as in place_listed.
 void set_positions(const Scene& scene, const Scene& told, Disks& disks, const PlaceAtRandom& place) {
   std::vector<std::uint32_t> obstacles;
   std::vector<std::uint32_t> placed;
@@ -211,7 +213,7 @@ void set_positions(const Scene& scene, const Scene& told, Disks& disks, const Pl
   place(scene, disks, grid, std::move(anywhere));
 }
 
-// Fixed disks, which have their places, and inner walls after them.
+// The fixed disks, which have their places, followed by the inner walls.
 std::vector<Obstacle> standing_obstacles(const Scene& scene, const Disks& disks) {
   std::vector<Obstacle> obstacles;
   std::size_t i = 0;
@@ -227,7 +229,7 @@ std::vector<Obstacle> standing_obstacles(const Scene& scene, const Disks& disks)
   return obstacles;
 }
 
-// The disks of state.obstacles leave state.disks, whose others keep their ids.
+// Removes the disks that are obstacles from state.disks; the others keep their ids.
 void take_obstacles(const Scene& scene, State& state) {
   Disks& disks = state.disks;
   std::vector<unsigned char> fixed(disks.size(), 0);
@@ -241,7 +243,7 @@ void take_obstacles(const Scene& scene, State& state) {
   if (disks.empty()) set_sizes_of_source(scene, disks);
 }
 
-// initial_state of a scene whose sides and images are at rest. told: as of place_listed.
+// initial_state of a scene whose sides and images are at rest. told: as in place_listed.
 State start_at_rest(const Scene& scene, const Scene& told, const PlaceAtRandom& place, const GrowthTools& growth) {
   State state;
   Count total = 0;
@@ -255,7 +257,7 @@ State start_at_rest(const Scene& scene, const Scene& told, const PlaceAtRandom& 
   const bool all_grow = std::all_of(scene.groups.begin(), scene.groups.end(),
                                     [](const DiskGroup& g) { return g.positions.kind == PositionLaw::Kind::growth; });
   if (n > 0 && !all_grow) set_positions(scene, told, disks, place);
-  disks.id.resize(n);  // not before: placing takes the most memory
+  disks.id.resize(n);  // only now, since placing needs the most memory
   std::iota(disks.id.begin(), disks.id.end(), DiskId{0});
   state.obstacles = standing_obstacles(scene, disks);
   if (n > 0 && grows(scene)) place_by_growth(scene, disks, state.obstacles, place, growth);
@@ -295,7 +297,7 @@ State initial_state(const Scene& scene, const PlaceAtRandom& place, const Growth
     return moved_back(scene, start_at_rest(inside_moving_sides(scene), scene, place, growth));
   }
   if (!scene.box.shear.acts()) return start_at_rest(scene, scene, place, growth);
-  Scene at_rest = scene;  // the images above too, which are not displaced at time 0
+  Scene at_rest = scene;  // without shear too: images are not displaced at time 0
   at_rest.box.shear = {};
   State state = start_at_rest(at_rest, scene, place, growth);
   Disks& d = state.disks;
@@ -309,11 +311,14 @@ std::vector<Obstacle> obstacles_of(const Scene& scene) {
                        [&](const DiskGroup& g) { return g.fixed && is_it(g.positions); });
   };
   if (!any_fixed([](const PositionLaw&) { return true; })) return segments_of(scene);
-  // Fixed disks of a list or a lattice stand whatever room others find; and all stand before others grow.
+  // Fixed disks of a list or a lattice do not depend on other disks; and before a growth all fixed disks are placed
+  // first.
   const bool drawn = any_fixed([](const PositionLaw& law) { return law.kind == PositionLaw::Kind::random; });
   const auto nowhere = [](const Scene&, Disks&, PlacementGrid&, const std::vector<std::uint32_t>&) {};
   GrowthTools none = plain_growth();
-  none.step = [](Disks&, const Domain&, const std::vector<double>&) { return GrowthTally{}; };  // says: all have grown
+  none.step = [](Disks&, const Domain&, const std::vector<double>&) {
+    return GrowthTally{};
+  };  // reports that all disks have grown
   return initial_state(scene, drawn ? PlaceAtRandom(place_at_random) : PlaceAtRandom(nowhere), none).obstacles;
 }
 

@@ -13,7 +13,7 @@ namespace carom {
 
 namespace {
 
-// Disks first to last - 1, one group.
+// The disks of one group, [first, last).
 struct Range {
   std::size_t first = 0;
   std::size_t last = 0;
@@ -68,7 +68,7 @@ void add_drift(Vec2 drift, Disks& d, Range range) {
   }
 }
 
-// w^2 scaled so that the mean of I w^2 is T.
+// Draws spins and scales them so that the mean of I w^2 is T.
 void set_thermal_spins(const Scene& scene, double temperature, Disks& d, Range range) {
   double twice_energy = 0.0;
   for (std::size_t i = range.first; i < range.last; ++i) {

@@ -15,7 +15,7 @@ Count divide_up(Count a, Count b) {
   return (a + b - 1) / b;
 }
 
-// Distance of rows of a hexagonal lattice and of the columns in them, for a given number of columns.
+// The spacings of a hexagonal lattice for a given number of columns.
 struct Spacing {
   double x = 0.0;
   double first_x = 0.0;
@@ -29,7 +29,8 @@ Spacing columns_spacing(const Domain& box, Count columns, double diameter) {
     s.x = box.width / n;
     s.first_x = 0.25 * s.x;
   } else {
-    // Half a spacing to either side, and the shift of the odd rows; one column may keep less than half a spacing.
+    // Half a spacing at either side, and half for the shift of the odd rows; with one column less is enough at the
+    // sides.
     s.x = box.width / (n + 0.5);
     s.first_x = 0.5 * s.x;
     if (s.first_x < 0.5 * diameter) {
@@ -37,7 +38,7 @@ Spacing columns_spacing(const Domain& box, Count columns, double diameter) {
       s.x = (box.width - diameter) / (n - 0.5);
     }
   }
-  // Neighbours in adjacent rows are half a spacing apart in x; every other row is straight above.
+  // Neighbours in adjacent rows are half a spacing apart in x; every second row has the same x.
   const double rest = diameter * diameter - 0.25 * (s.x * s.x);
   s.least_y = std::max(0.5 * diameter, rest > 0.0 ? std::sqrt(rest) : 0.0);
   return s;
@@ -47,7 +48,7 @@ bool columns_fit(const Domain& box, Count columns, const Spacing& s, double diam
   return s.x * lattice_rounding >= diameter || (columns == 1 && !box.periodic_x());
 }
 
-// The most rows that fit over each other; a periodic height takes an even number, so that the shift closes.
+// The most rows that fit; an even number if the height is periodic, so that the shift closes.
 Count most_rows(const Domain& box, const Spacing& s, double diameter) {
   if (box.periodic_y()) return whole(box.height / s.least_y * lattice_rounding) / 2 * 2;
   return whole((box.height - diameter) / s.least_y * lattice_rounding) + 1;
@@ -67,7 +68,7 @@ Lattice hexagonal_of(const Domain& box, Count columns, Count rows, double diamet
     lattice.first_y = 0.5 * lattice.spacing_y;
     return lattice;
   }
-  // To the sides as far as the lattice's disks, grown until they touch, would reach.
+  // The distance to the sides is the radius to which the lattice's disks could grow until they touch.
   const double reach = 0.5 / triangle_height;
   lattice.spacing_y = box.height / (n - 1.0 + 2.0 * reach);
   lattice.first_y = reach * lattice.spacing_y;
@@ -80,12 +81,12 @@ Lattice hexagonal_of(const Domain& box, Count columns, Count rows, double diamet
   return lattice;
 }
 
-// How far a ratio is from one, either way.
+// The ratio or its inverse, whichever is larger.
 double distortion(double ratio) {
   return std::max(ratio, 1.0 / ratio);
 }
 
-// The best of the lattices with first to last columns; make gives one for a number of columns, or nullopt.
+// The least distorted of the lattices with first to last columns; make(columns) returns a lattice or nullopt.
 template <class Make>
 std::optional<Lattice> least_distorted(Count first, Count last, double ideal_ratio, Make make) {
   std::optional<Lattice> best;
@@ -98,7 +99,8 @@ std::optional<Lattice> least_distorted(Count first, Count last, double ideal_rat
   return best;
 }
 
-// Columns within a factor of two of the ideal number first; all of them only if none of those has room.
+// Tries numbers of columns within a factor of two of the ideal one first, and all others only if none of those has
+// room.
 template <class Make>
 std::optional<Lattice> search_columns(double ideal, Count last, double ideal_ratio, Make make) {
   const double middle = std::clamp(ideal, 1.0, static_cast<double>(last));

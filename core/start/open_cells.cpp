@@ -13,18 +13,18 @@ namespace carom {
 
 namespace {
 
-// Cells across the smallest radius. At packing fraction 0.5 this makes 100 cells (12 bytes) a disk; finer cells close
-// a larger part of what is ruled out, coarser ones cost less.
+// Cells across the smallest radius. At packing fraction 0.5 this makes 100 cells (12 bytes) for each disk. Finer cells
+// cover the excluded area more closely, coarser ones cost less.
 constexpr double cells_per_radius = 4.0;
 constexpr std::size_t most_cells_per_disk = 128;
 constexpr std::size_t most_cells = 0xffffffffU;  // 512 MiB of bits
 constexpr std::size_t listed_per_disk = 4;
 constexpr std::size_t least_listed = 4096;
 
-// Many pages at a time, as each call breaks up a large one.
+// Many pages at a time, since each call breaks up a huge page.
 constexpr std::size_t words_given_back = std::size_t{1} << 15;
 
-// Share of a cell by which spans stay inside a circle, so that rounding never closes a cell that it should not.
+// Spans stay inside a circle by this share of a cell, so that rounding never closes a cell wrongly.
 constexpr double cell_margin = 1e-6;
 
 }  // namespace
@@ -46,7 +46,7 @@ OpenCells::OpenCells(const Domain& box, double smallest, std::size_t disks, cons
   if (region_ != nullptr) close_outside();
 }
 
-// Of the first row of tiles whose lower edge is not below.
+// The first row of the first tile whose lower edge is at or above `height`.
 std::size_t OpenCells::first_row_from(double height) const {
   const auto rows = static_cast<double>(rows_);
   const double row = std::ceil(std::clamp(height / tile_height(), -1.0, rows)) * VoxelList::tile;
@@ -94,7 +94,7 @@ void OpenCells::close_span(std::size_t row, std::size_t first, std::size_t count
   }
 }
 
-// Columns first to last - 1 of a row, whole numbers; on periodic sides they may lie up to a width outside.
+// Closes columns [first, last) of a row, whole numbers; across periodic sides they may lie up to a width outside.
 void OpenCells::close_columns(double row, double first, double last) {
   const auto columns = static_cast<double>(columns_);
   const auto close = [&](double a, double b) {
@@ -109,14 +109,13 @@ void OpenCells::close_columns(double row, double first, double last) {
 void OpenCells::close_around(double x, double y, double radius) {
   const auto rows = static_cast<double>(rows_);
   const double reach = radius + smallest_;
-  // A fixed disk may be wider than the box by any factor: beyond sides that are not periodic there are no rows to
-  // close.
+  // A fixed disk may be far wider than the box; beyond sides that are not periodic there are no rows to close.
   const double first = box_.periodic_y() ? -HUGE_VAL : 0.0;
   const double end = box_.periodic_y() ? HUGE_VAL : rows;
   const double low = std::max(first, std::ceil((y - reach) / cell_y_ + cell_margin));
   const double high = std::min(end, std::floor((y + reach) / cell_y_ - cell_margin));
   for (double row = low; row < high; row += 1.0) {
-    // A cell is ruled out when its farthest corner is within reach.
+    // A cell is closed if its farthest corner is within reach.
     const double dy = std::max(std::abs(row * cell_y_ - y), std::abs((row + 1.0) * cell_y_ - y));
     const double half_squared = reach * reach - dy * dy;
     const bool outside = row < 0.0 || row >= rows;

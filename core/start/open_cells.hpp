@@ -1,4 +1,4 @@
-// Where a disk may still find room: the box in small cells, less those that placed disks rule out.
+// The part of the box where a disk may still find room, in small cells: those that no placed disk rules out.
 #pragma once
 
 #include <cmath>
@@ -13,40 +13,41 @@
 
 namespace carom {
 
-// Heights between which rows of cells are known; length.
+// The range of heights whose rows of cells are held; length.
 struct KnownHeights {
   double low = -HUGE_VAL, high = HUGE_VAL;
 };
 
-// For disks of radius smallest and more. A cell is closed when one placed disk rules out every centre in it, or when it
-// lies within smallest of a wall or sink; a point in a closed cell need not be tried. One bit a cell, about 100 cells a
-// disk: this makes the last disks of a dense random start cheap, when only one place in thousands is free.
+// For disks of radius `smallest` or more. A cell is closed if one placed disk rules out every centre in it, or if it
+// lies within `smallest` of a wall or sink; points in closed cells need not be tried. One bit for each cell, about 100
+// cells for each disk. This makes the last disks of a dense random start cheap, when only one place in thousands is
+// free.
 class OpenCells {
  public:
-  // region: null, or where whole disks are to lie; it must outlive this. known: only the rows of tiles (VoxelList)
-  // whose lower edge lies in [low, high) are here, so that several may share the box.
+  // region: null, or the region in which whole disks have to lie; it must outlive this. known: only rows of tiles
+  // (VoxelList) whose lower edge lies in [low, high) are held, so that several ranks may share the box.
   OpenCells(const Domain& box, double smallest, std::size_t disks, const StartRegion* region = nullptr,
             const KnownHeights& known = {});
 
-  // Closes what a disk placed at (x, y) rules out.
+  // Closes the cells that a disk placed at (x, y) rules out.
   void close_around(double x, double y, double radius);
 
-  // Precondition: all rows are here.
+  // Precondition: all rows are held.
   bool is_open(double x, double y) const { return !closed(row_of(y) * columns_ + column_of(x)); }
 
-  std::size_t open() const { return open_; }                        // cells that are here
+  std::size_t open() const { return open_; }                        // cells held
   double tile_height() const { return cell_y_ * VoxelList::tile; }  // length
 
-  // True when so few cells are open that it pays to draw from a list of them. open: of the whole box.
+  // Are so few cells open that it pays to draw from a list of them? open: number in the whole box.
   bool list_due(std::size_t open) const;
   bool list_due() const { return list_due(open_); }
 
-  // The open cells that are here, in tiles. Memory: at most 4 entries of 8 bytes a disk; that of the cells is given
-  // back as they are read, so that they and the list are never there as a whole. Nothing may be asked of the cells
-  // afterwards.
+  // The list of open cells held, by tiles: at most 4 entries of 8 bytes for each disk. The memory of the cells is given
+  // back while they are read, so that cells and list are never held completely at the same time. The cells must not be
+  // used afterwards.
   VoxelList list();
 
-  // Asks for the memory that is_open is about to read.
+  // Prefetches the memory that is_open will read.
   void prefetch_cell(double x, double y) const {
     __builtin_prefetch(&bits_[(row_of(y) * columns_ + column_of(x)) / 64]);
   }
@@ -67,10 +68,10 @@ class OpenCells {
   double smallest_;
   std::size_t disks_;
   std::size_t columns_ = 1, rows_ = 1;       // of the whole box
-  std::size_t first_row_ = 0, end_row_ = 1;  // that are here
+  std::size_t first_row_ = 0, end_row_ = 1;  // held
   double cell_x_ = 0.0, cell_y_ = 0.0;       // length
   std::size_t open_ = 0;                     // cells
-  std::vector<std::uint64_t> bits_;          // 1: closed; row by row, from first_row_ on
+  std::vector<std::uint64_t> bits_;          // 1: closed; row by row from first_row_ on
 };
 
 }  // namespace carom

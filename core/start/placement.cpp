@@ -14,7 +14,7 @@ void place_at_random(const Scene& scene, Disks& disks, PlacementGrid& grid, std:
 }
 
 PlaceAtRandom place_watched(std::function<void()> watch) {
-  constexpr std::size_t disks_between_looks = 16;  // the last ones before a jam may take milliseconds each
+  constexpr std::size_t disks_between_looks = 16;  // the last disks before a jam may take milliseconds each
   return [watch = std::move(watch)](const Scene& scene, Disks& disks, PlacementGrid& grid,
                                     std::vector<std::uint32_t> members) {
     PlacementSearch search = make_placement_search(scene, disks, grid, members);

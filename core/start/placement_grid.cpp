@@ -12,18 +12,18 @@ namespace carom {
 
 namespace {
 
-// Classes of size beyond this one share the last grid: radii more than 2^40 apart.
+// The last class of sizes holds all smaller disks, too: radii more than 2^40 apart.
 constexpr int last_class = 40;
 
-// Cells first to last (count of them) along one axis that a reach around a coordinate can touch. Periodic axes give a
-// range that may start below 0 or end beyond the last cell.
+// The cells along one axis within reach of a coordinate. On a periodic axis the range may start below 0 or end beyond
+// the last cell.
 struct CellRange {
   std::ptrdiff_t first = 0;
   std::ptrdiff_t count = 0;
 };
 
 CellRange cells_around(double coordinate, double reach, double per_length, std::size_t cells, bool periodic) {
-  // The margin, in cells, covers the rounding of the products; cells are never fewer than 1e-6 of 2^32.
+  // A margin, in cells, for the rounding of the products.
   constexpr double margin = 1e-6;
   const double low = std::floor((coordinate - reach) * per_length - margin);
   const double high = std::floor((coordinate + reach) * per_length + margin);
@@ -77,7 +77,7 @@ PlacementGrid::PlacementGrid(const Domain& box, const Disks& disks, double large
   }
 }
 
-// Cells a diameter wide, but not many more than there are disks.
+// Cells are a diameter wide, but there are not many more of them than disks.
 void PlacementGrid::size_cells(Level& level) const {
   if (level.disks == 0) return;
   const double width = box_.width;
@@ -103,7 +103,7 @@ void PlacementGrid::insert(std::size_t i) {
   head = static_cast<std::uint32_t>(i);
 }
 
-// The cell itself, the row below and the one above: their neighbours mostly share the line of memory.
+// The cell itself and those below and above; neighbours in a row mostly share their cache line.
 void PlacementGrid::prefetch_cells(double x, double y) const {
   for (const Level& level : levels_) {
     if (level.disks == 0) continue;

@@ -1,4 +1,5 @@
-// Finding overlaps while an initial state is built: disks already placed, in cells, one grid for each class of size.
+// Finds overlaps while an initial state is built: the disks already placed, in cells, with one grid for each class of
+// sizes.
 #pragma once
 
 #include <cstddef>
@@ -11,16 +12,16 @@
 
 namespace carom {
 
-// Disks whose radii differ by less than a factor of two share a grid, so that one huge disk among a million small
-// ones does not make every cell huge. About 28 bytes a disk.
+// Disks whose radii differ by less than a factor of two share a grid, so that one huge disk among a million small ones
+// does not make every cell huge. About 28 bytes for each disk.
 class PlacementGrid {
  public:
   // For the disks of box; radii are known, positions are read from disks when a disk is inserted. disks outlives the
   // grid, and holds at most 2^32 - 2 entries.
   PlacementGrid(const Domain& box, const Disks& disks);
 
-  // The same where radii are known only when disks are inserted: none is larger than this, and about so many are
-  // expected of each class; there are none of others.
+  // The same if radii are known only when disks are inserted. expected: approximate numbers of disks in each class;
+  // there must be none of other classes.
   PlacementGrid(const Domain& box, const Disks& disks, double largest_radius, const std::vector<std::size_t>& expected);
 
   // k, for radii in (largest / 2^(k+1), largest / 2^k].
@@ -29,14 +30,14 @@ class PlacementGrid {
   // Adds disk i at its position in disks.
   void insert(std::size_t i);
 
-  // A disk in the grid whose centre is nearer than the sum of the radii to a disk of this radius at (x, y), if any.
-  // With slack, overlaps that rounding of the input explains do not count. Without it, what touches an inner wall
-  // (box.obstacles) overlaps too: the answer is no_disk.
+  // A disk in the grid that overlaps a disk of this radius at (x, y), if any. slack: overlaps within the rounding of
+  // the input do not count. Without slack, a disk that touches an inner wall (box.obstacles) overlaps too, and the
+  // result is no_disk.
   std::optional<std::size_t> overlapping(double x, double y, double radius, bool slack) const;
 
   static constexpr std::size_t no_disk = static_cast<std::size_t>(-1);
 
-  // A disk of the grid seen from a point: the nearest image of its centre, and the sum of the radii.
+  // A disk of the grid relative to a point: the nearest image of its centre, and the sum of the radii.
   struct Near {
     double dx, dy, contact;
   };
@@ -44,8 +45,7 @@ class PlacementGrid {
   // All disks that a disk of this radius overlaps somewhere within `spread` of (x, y).
   void find_near(double x, double y, double radius, double spread, std::vector<Near>& found) const;
 
-  // Ask for the memory that overlapping(x, y, radius) is about to read: first the cells, then, once those are there,
-  // the disks in them.
+  // Prefetch the memory that overlapping(x, y, radius) will read: first the cells, later the disks in them.
   void prefetch_cells(double x, double y) const;
   void prefetch_disks(double x, double y) const;
 
@@ -67,13 +67,13 @@ class PlacementGrid {
     std::size_t disks = 0;
     std::size_t columns = 1, rows = 1;
     double per_x = 0.0, per_y = 0.0;  // cells per length
-    std::vector<std::uint32_t> head;  // first disk of a cell, row by row; empty_cell if none
+    std::vector<std::uint32_t> head;  // first disk of each cell, row by row; empty_cell if there is none
   };
 
   void size_cells(Level& level) const;
   Near seen_from(std::size_t i, double x, double y, double radius) const;
   bool overlaps(std::size_t i, double x, double y, double radius, bool slack) const;
-  // Calls use(i) for disks in the cells within reach of (x, y) until one answers true; says whether one did.
+  // Calls use(i) for disks in the cells within reach of (x, y) until it returns true; returns whether it did.
   template <class Use>
   bool any_around(const Level& level, double x, double y, double reach, Use use) const;
 
@@ -81,8 +81,8 @@ class PlacementGrid {
   const Disks& disks_;
   double largest_radius_ = 0.0;
   std::vector<Level> levels_;        // by class
-  std::vector<Vec2> placed_;         // by index in disks: positions again, x and y on one line of memory
-  std::vector<std::uint32_t> next_;  // likewise: the next disk in the same cell
+  std::vector<Vec2> placed_;         // by index in disks: copies of positions, x and y on the same cache line
+  std::vector<std::uint32_t> next_;  // by index in disks: the next disk in the same cell
 };
 
 }  // namespace carom

@@ -15,8 +15,8 @@ namespace carom {
 
 namespace {
 
-// Trials that a search without hope may cost. Packing fraction 0.543 needs 40 a disk; 10^6 disks that cannot be placed
-// are given up in under a minute.
+// Most trials for each disk before a search is given up. Packing fraction 0.543 needs 40; 10^6 disks that cannot be
+// placed are given up in under a minute.
 constexpr std::uint64_t most_trials_each = 60;
 constexpr std::uint64_t most_trials_at_least = 5'000'000;
 
@@ -29,7 +29,8 @@ void narrow(PlacementRoom::Axis& axis, double low, double high) {
   axis.high = std::max(axis.low, std::min(axis.high, high));
 }
 
-// One past the last member whose radius is above half of that of members[begin]; members are in order of radius.
+// The end of the class that begins at members[begin]: radii above half of its radius. members are in descending order
+// of radius.
 std::size_t end_of_class(const Disks& disks, const std::vector<std::uint32_t>& members, std::size_t begin) {
   if (disks.radius.empty()) return members.size();
   const double half = 0.5 * disks.radius[members[begin]];
@@ -46,7 +47,7 @@ PlacementRoom placement_room(const Domain& box, double radius, const StartRegion
   if (!spans_x(*region, box)) narrow(room.across, region->low.x + radius, region->high.x - radius);
   if (!spans_y(*region, box)) narrow(room.up, region->low.y + radius, region->high.y - radius);
   if (region->circle) {
-    // One disk may fill it in decimals, and rounding put its only place beside the centre.
+    // If one disk just fills the circle in decimals, rounding may put its only place beside the centre.
     const double reach = std::max(region->radius - radius, place_slack(box, radius));
     room.circle2 = reach * reach;
     room.middle = region->centre;
@@ -105,8 +106,8 @@ void PlacementSearch::refine_to(std::size_t size) {
   in_vain = 0;
 }
 
-// With a list, points are uniform over its voxels: an accepted one has the same distribution, as the rest would have
-// been refused.
+// With a list, points are uniform over its voxels. Accepted points have the same distribution as without it, since all
+// other points would have been rejected.
 void PlacementSearch::place_one(std::size_t k) {
   const std::uint32_t i = members[k];
   const double radius = disks.radius_of(i);

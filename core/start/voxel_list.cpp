@@ -10,14 +10,15 @@ namespace carom {
 
 namespace {
 
-// Voxels a disk, up to which a list may be halved: it has at most four times as many afterwards.
+// A list may be halved if it has at most so many voxels for each disk; it then has at most four times as many.
 constexpr std::size_t halved_per_disk = 1;
 constexpr std::size_t halved_at_least = 4096;
 
-// Part of a contact distance by which rounding must not close what is free.
+// Margin, in contact distances, so that rounding does not remove free places.
 constexpr double contact_margin = 1e-9;
 
-// Is a voxel with this middle, seen from the point that `near` is about, within one of those disks' contact circles?
+// Does the contact circle of one of these disks contain the whole voxel? middle: relative to the point to which `near`
+// refers.
 bool ruled_out(const std::vector<PlacementGrid::Near>& near, Vec2 middle, double half_x, double half_y) {
   return std::any_of(near.begin(), near.end(), [&](const PlacementGrid::Near& disk) {
     const double x = std::abs(disk.dx - middle.x) + half_x;
@@ -52,13 +53,13 @@ bool VoxelList::holds(Vec2 point) const {
   return std::any_of(list_.begin(), list_.end(), [&](Voxel v) { return v.column == column && v.row == row; });
 }
 
-// Not beyond what 32 bits count, and not so many that memory runs short.
+// Only as long as 32 bits can count columns and rows, and memory suffices.
 bool VoxelList::halved() const {
   constexpr std::uint64_t most = std::uint64_t{1} << 31;
   return columns_ <= most && rows_ <= most && all_ <= std::max(halved_per_disk * disks_, halved_at_least);
 }
 
-// Nothing of it is in the room that walls and sinks leave to a centre.
+// Is the whole voxel outside the room that walls, sinks and the region leave to a centre?
 bool VoxelList::outside(double x, double y, double half_x, double half_y) const {
   const auto beyond = [&](double c, double half, double length) {
     const double room = smallest_ * (1.0 - contact_margin);
@@ -79,7 +80,7 @@ std::vector<Voxel> VoxelList::survivors(const PlacementGrid& grid, std::size_t b
   const double spread = 0.5 * tile_ * std::hypot(size_x_, size_y_);
   std::vector<Voxel> left;
   std::vector<PlacementGrid::Near> near;
-  Vec2 anchor;  // the middle of the tile at hand
+  Vec2 anchor;  // the middle of the present tile
   for (std::size_t k = begin; k < end; ++k) {
     const Voxel voxel = list_[k];
     if (k == begin || voxel.column / tile_ != list_[k - 1].column / tile_ ||

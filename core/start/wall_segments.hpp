@@ -1,4 +1,4 @@
-// The inner walls of a scene as obstacles.
+// Inner walls of a scene as obstacles.
 #pragma once
 
 #include <vector>
