@@ -25,8 +25,8 @@ double kinetic_energy_of(const DisksInPieces& disks) {
   return sum.value();
 }
 
-// The row of the profile that a sample at time t belongs to: at the edge of two, to the later one. The last moment may
-// begin a row, which a resumed run goes on with where it has a later end.
+// The row of the profile to which a sample at time t belongs; at the boundary of two rows, the later one. So the sample
+// at the end of the run may begin a row, which is continued if the run is resumed with a later end.
 template <class Profile>
 Profile& row_at(std::vector<Profile>& rows, const Scene& scene, double every, double t, const Profile& empty) {
   const double row = std::floor((t - scene.analysis.start) / every + row_edge);
@@ -47,7 +47,7 @@ void add_displacement(AnalysisRecord& record, const Scene& scene, const DisksInP
   record.series.followed.push_back(static_cast<double>(mean.disks));
 }
 
-// Means over the time since the sample before, of all disks.
+// Adds means over all disks and over the time since the sample before.
 void add_means(AnalysisRecord& record, const Scene& scene, const DisksInPieces& disks, const State& now) {
   const bool first = record.series.time.size() == 1;
   const double elapsed = first ? 0.0 : now.time - record.counted_until;
@@ -106,7 +106,7 @@ bool same_shape(const PairRecord& a, const PairRecord& b) {
   return a.counts.size() == b.counts.size();
 }
 
-// Have all the shape of one?
+// Do all parts have as many bins as this one?
 template <class Part>
 bool all_like(const std::vector<Part>& parts, const Part& one) {
   return std::all_of(parts.begin(), parts.end(), [&](const Part& part) { return same_shape(part, one); });

@@ -22,7 +22,7 @@ double length_of_profile(const Scene& scene) {
   return scene.analysis.density_along_x ? scene.box.width : scene.box.height;
 }
 
-// Area of all slabs of all samples, by the number of slabs.
+// Area of one slab, summed over the samples; length^2.
 double slab_area(const DensityProfile& density, const Scene& scene) {
   return scene.box.width * scene.box.height / static_cast<double>(density.centres.size()) *
          static_cast<double>(density.samples);

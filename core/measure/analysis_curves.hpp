@@ -1,4 +1,4 @@
-// The curves that an analysis comes to, from its counts: what the file holds and the plots show.
+// The curves of an analysis, computed from its counts: for the output file and the plots.
 #pragma once
 
 #include <string>
@@ -14,11 +14,12 @@ struct BinnedCurve {
   std::vector<double> value;
 };
 
-// g(r): pairs found over those expected of disks strewn at random, which have sum of n (n - 1) / A times the area of a
-// bin's ring. NaN before there is anything to expect.
+// g(r): the pairs found over those expected of disks at random places, which is the sum of n (n - 1) / A times the area
+// of a bin's ring. NaN if no pairs are expected.
 BinnedCurve pair_correlation_curve(const PairRecord& pairs, const AnalysisPlan& plan);
 
-// The same of the pairs of two groups, which expect 2 n1 n2 / A; of a group with itself n (n - 1) / A.
+// The same for pairs of two groups, with 2 n1 n2 / A in place of n (n - 1) / A; for pairs within a group with n (n - 1)
+// / A.
 struct PartialCurve {
   std::string group, other;
   std::vector<double> g;
@@ -28,26 +29,27 @@ std::vector<PartialCurve> partial_curves(const AnalysisRecord& record, const Ana
 // g6(r): mean of Re(psi6* psi6') over the pairs in a bin; NaN where there is none.
 BinnedCurve bond_correlation_curve(const AnalysisRecord& record, const AnalysisPlan& plan);
 
-// Probability densities of the reduced speed: measured, and that of equilibrium; means over each bin. The measured one
-// counts what is faster than the last bin, too, so that it need not have the area 1. NaN where nothing was measured.
+// Probability densities of the reduced speed, measured and in equilibrium; means over each bin. The measured density is
+// normalised by all disks, including those faster than the last bin, so its area may be below 1. NaN if nothing was
+// measured.
 BinnedCurve speed_curve(const AnalysisRecord& record, const AnalysisPlan& plan);
 BinnedCurve maxwell_curve(const AnalysisPlan& plan);
 
-// Share of each slab that disks cover, and disks per area; means over the samples.
+// For each slab, the share covered by disks, and disks per area; means over the samples.
 BinnedCurve packing_curve(const DensityProfile& density, const Scene& scene);
 BinnedCurve number_density_curve(const DensityProfile& density, const Scene& scene);
 
-// Of each slab; NaN where no disk was.
+// One value for each slab; NaN where there was no disk.
 struct ProfileCurves {
   std::vector<double> position, vx, vy, temperature;
 };
 ProfileCurves profile_curves(const MotionProfile& profile, const Scene& scene);
 
-// The rows of a run to t_end: there is none beyond it, as the last moment belongs to the last row.
+// The rows of a run to t_end. A sample at t_end itself is joined to the last row.
 std::vector<DensityProfile> density_rows_of_run(const AnalysisRecord& record, const Scene& scene);
 std::vector<MotionProfile> motion_rows_of_run(const AnalysisRecord& record, const Scene& scene);
 
-// Times at which the first `rows` rows of a profile begin that has one for each `every`.
+// The times at which the first `rows` rows of a profile begin; every: their length in time.
 std::vector<double> row_times(std::size_t rows, double every, const Scene& scene);
 
 // Wave numbers, 1 / length, and S(k); empty along an axis that is not periodic.

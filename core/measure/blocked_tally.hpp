@@ -1,4 +1,4 @@
-// blocked_sum of terms that come one after the other, or of disks that come in pieces.
+// A blocked_sum whose terms come one after the other, or whose disks come in pieces.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace carom {
 
 class BlockedTally {
  public:
-  // The next term.
+  // Adds the next term.
   void add(double term) {
     block_ += term;
     if (++terms_ < sum_block) return;
@@ -21,8 +21,8 @@ class BlockedTally {
     terms_ = 0;
   }
 
-  // The next terms, in order of id over all pieces: term(i) for each i of order. However they are cut into pieces, the
-  // value has the bits of blocked_sum over all.
+  // Adds term(i) for each i of order; pieces must come in order of id. The value has the bits of blocked_sum over all
+  // disks, for any division into pieces.
   template <class Term>
   void add(std::span<const std::size_t> order, const BlockRunner& run, Term&& term) {
     const std::size_t head = std::min(order.size(), terms_ > 0 ? sum_block - terms_ : 0);
@@ -42,8 +42,8 @@ class BlockedTally {
 
  private:
   double total_ = 0.0;     // of whole blocks
-  double block_ = 0.0;     // of the block that is not whole
-  std::size_t terms_ = 0;  // in it
+  double block_ = 0.0;     // of the present, incomplete block
+  std::size_t terms_ = 0;  // in the present block
   std::vector<double> sums_;
 };
 

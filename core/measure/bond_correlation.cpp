@@ -10,7 +10,7 @@ BondPairs no_pairs(const DistanceBins& bins) {
   return {std::vector<Count>(bins.bins, 0), std::vector<FixedPointSum>(bins.bins)};
 }
 
-// psi6 of the disk at each place, so that those of a run lie one after the other.
+// psi6 by place (DistanceCells), so that a run of places is contiguous in memory.
 std::vector<Vec2> orders_by_place(const DistanceCells& cells, const Disks& orders) {
   std::vector<Vec2> psi(orders.size());
   for (std::size_t k = 0; k < psi.size(); ++k) {
@@ -20,8 +20,8 @@ std::vector<Vec2> orders_by_place(const DistanceCells& cells, const Disks& order
   return psi;
 }
 
-// Of those in rows [begin, end) of cells. The two numbers of a sum are kept in columns meanwhile: next to each other,
-// they would be added in a vector register, which takes longer to fill.
+// The pairs of rows [begin, end) of cells. The two members of each sum are kept in separate columns for now: next to
+// each other they would be added in a vector register, which takes longer to fill.
 BondPairs pairs_in(const DistanceCells& cells, const DistanceCells::Span& rows, const std::vector<Vec2>& psi,
                    const DistanceBins& bins) {
   BondPairs pairs = no_pairs(bins);

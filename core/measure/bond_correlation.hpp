@@ -1,4 +1,4 @@
-// The bond-orientational correlation g6(r): how alike the hexagons around two disks at a distance are turned.
+// The bond-orientational correlation g6(r): the correlation of psi6 of two disks at distance r.
 #pragma once
 
 #include <vector>
@@ -18,12 +18,12 @@ struct BondCorrelation {
   Count samples = 0;
 };
 
-// The pairs of one moment, the same in any order of storage and whoever runs the blocks. orders: disks with psi6 in
-// place of velocities (with_orders).
+// The pairs of one moment; the same for any order of storage and any runner. orders: disks with psi6 in place of
+// velocities (with_orders).
 BondPairs bond_pairs(const Disks& orders, const Domain& box, const DistanceBins& bins,
                      const BlockRunner& run = run_in_order);
 
-// Adds them as one sample. Precondition: the sums have as many bins.
+// Adds the pairs as one sample. Precondition: the sums have as many bins.
 void add_bond_pairs(BondCorrelation& sums, const BondPairs& found);
 
 }  // namespace carom

@@ -1,4 +1,4 @@
-// The correlation of psi6 in time, g6(t): how long the six nearest neighbours around a disk keep their directions.
+// The autocorrelation of psi6 in time, g6(t).
 #pragma once
 
 #include <vector>
@@ -15,7 +15,7 @@ struct BondMemory {
   std::vector<double> real, imaginary;
 };
 
-// Remembers nothing with fewer than seven disks.
+// With fewer than seven disks the memory stays empty.
 void begin_memory(BondMemory& memory, const DisksInPieces& orders);  // with_orders
 inline void begin_memory(BondMemory& memory, const Disks& disks, const Domain& box) {
   const Disks orders = with_orders(disks, bond_orders(disks, box));

@@ -19,14 +19,14 @@ struct Slabs {
   std::size_t nearest(std::ptrdiff_t slab) const {
     return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(slab, 0, count - 1));
   }
-  // Of a slab beyond a side; what reaches over a wall counts for the last slab.
+  // The slab in the box that a slab beyond a side stands for; beyond a wall, the outermost slab.
   std::size_t home(std::ptrdiff_t slab) const {
     if (!periodic) return nearest(slab);
     return static_cast<std::size_t>(((slab % count) + count) % count);
   }
 };
 
-// Exact sums: the order in which disks are stored does not matter.
+// Shares the area of a disk among the slabs. The sums are exact, so the order of the disks does not matter.
 void share_out(const Slabs& slabs, double centre, double radius, std::vector<ExactSum>& covered) {
   const double area = std::numbers::pi * radius * radius;
   const std::ptrdiff_t first = slabs.at(centre - radius);
@@ -45,7 +45,7 @@ void share_out(const Slabs& slabs, double centre, double radius, std::vector<Exa
 double share_below(double h) {
   if (h <= -1.0) return 0.0;
   if (h >= 1.0) return 1.0;
-  // The sector of the angle 2 acos(-h), and the triangle that it has too few or too many.
+  // The circular sector of angle 2 acos(-h), plus or minus a triangle.
   return (std::acos(-h) + h * std::sqrt(1.0 - h * h)) / std::numbers::pi;
 }
 

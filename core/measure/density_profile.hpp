@@ -1,4 +1,4 @@
-// How disks are spread along an axis: their number and the room that they take up, slab by slab.
+// Density profiles along an axis: number of disks and covered area, slab by slab.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace carom {
 
-// Equal slabs across the box. Disks are counted where their centres are; the area of a disk is shared out exactly among
-// the slabs that it reaches, round the corner of a periodic side.
+// Equal slabs across the box. A disk is counted in the slab of its centre; its area is divided exactly among the slabs
+// that it reaches, also across a periodic side.
 struct DensityProfile {
   std::vector<Count> centres;   // summed over the samples
-  std::vector<double> covered;  // area, likewise; length^2
+  std::vector<double> covered;  // area, summed over the samples; length^2
   Count samples = 0;
 };
 
@@ -27,7 +27,7 @@ inline void add_density(DensityProfile& profile, const Disks& disks, const Domai
 // Adds the samples of another profile with as many slabs.
 void join(DensityProfile& profile, const DensityProfile& other);
 
-// Part of a disk of radius 1 that lies below the line y = h: 0 for h <= -1, 1 for h >= 1.
+// The share of a unit disk's area below the line y = h: 0 for h <= -1, 1 for h >= 1.
 double share_below(double h);
 
 }  // namespace carom

@@ -16,9 +16,9 @@ constexpr std::int32_t parts = 16;  // of a period
 // A quarter period is four parts, five with the rounding of both ends.
 constexpr std::int32_t most_parts = 5;
 constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
-// Disks a block of a look: a few milliseconds of work.
+// Disks in a block of noting positions: a few milliseconds of work.
 constexpr std::size_t look_block = std::size_t{1} << 16;
-// Ids a block of the sum.
+// Ids in a block of the sum.
 constexpr DiskId mean_block = 4096;
 
 std::int32_t part_of(double coordinate, double period) {
@@ -29,7 +29,7 @@ bool is_followed(const AxisTally& axis, DiskId id) {
   return id < axis.from.size() && !std::isnan(axis.from[id]);
 }
 
-// Ids begin without gaps: room for those of so many disks, which need not grow piece by piece.
+// Initial ids have no gaps, so memory for this number of disks is usually enough.
 AxisTally empty_axis(Count disks, bool periodic) {
   AxisTally axis;
   axis.from.reserve(disks);
@@ -59,7 +59,7 @@ struct Moves {
   }
 };
 
-// Disks begin to end - 1.
+// Notes disks [begin, end).
 Moves look_along(AxisTally& axis, const std::vector<double>& coordinate, const std::vector<DiskId>& id, double period,
                  std::size_t begin, std::size_t end) {
   // Their ids lie all over memory, which is asked for so many disks before.
@@ -76,7 +76,7 @@ Moves look_along(AxisTally& axis, const std::vector<double>& coordinate, const s
       continue;
     }
     std::int32_t& unwrapped = axis.sixteenth[id[i]];
-    // Of all coordinates that wrap to the present one, the nearest: -8 to 7 parts away.
+    // The nearest of all coordinates that wrap to the present one: -8 to 7 parts away.
     const std::int32_t ahead = (part_of(coordinate[i], period) - unwrapped) & (parts - 1);
     const std::int32_t move = ahead < parts / 2 ? ahead : ahead - parts;
     moves.doubtful += std::abs(move) > most_parts ? 1 : 0;
@@ -158,7 +158,7 @@ void follow_rounds(DisplacementTally& tally, const DisksInPieces& disks, const D
     tally.begun = true;
     tally.checked_at = disks.time();
     tally.fastest = fastest_speed(disks);
-    // Ids begin without gaps: room that need not grow piece by piece.
+    // Initial ids have no gaps, so this is usually enough.
     if (box.periodic_x()) tally.x.sixteenth.reserve(disks.size());
     if (box.periodic_y()) tally.y.sixteenth.reserve(disks.size());
   }
@@ -170,11 +170,11 @@ std::int32_t rounds_of(const AxisTally& axis, DiskId id) {
   return id < axis.sixteenth.size() ? axis.sixteenth[id] >> 4 : 0;  // rounds down
 }
 
-// Block by block of ids, those that are gone as if they had not moved.
+// Sums run within blocks of ids; disks that are gone add 0.
 MeanSquare mean_square_displacement(const DisplacementTally& tally, const DisksInPieces& disks, const Domain& box) {
   MeanSquare mean;
   double total = 0.0, sum = 0.0;
-  DiskId block = 0;  // that the sum is of
+  DiskId block = 0;  // number of the present block
   disks.visit([&](const Disks& d) {
     for (const std::size_t i : by_id(d)) {
       if (!is_followed(tally.x, d.id[i])) continue;

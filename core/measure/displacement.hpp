@@ -1,5 +1,5 @@
-// How far disks have come, across periodic sides too: the mean square displacement, and how often a disk has gone
-// round.
+// Displacements across periodic sides: the mean square displacement, and the net number of times that each disk has
+// crossed a periodic side (its rounds).
 #pragma once
 
 #include <cstdint>
@@ -13,44 +13,43 @@
 
 namespace carom {
 
-// In a sheared box only the displacement along y counts: along x disks go with the flow, and an image that follows one
-// across the top has come from elsewhere.
+// In a sheared box only the displacement along y counts: along x disks move with the flow, and a disk that leaves at
+// the top comes back elsewhere.
 //
-// Along an axis: where each disk was at the start, by id (NaN: no such disk; empty where only rounds are counted), and,
-// where the axis is periodic, its unwrapped coordinate in sixteenths of the period, rounded down (not_followed: no such
-// disk). A coordinate known to a sixteenth tells, with the next frame, how often it went round, as long as no disk
-// moves further than a quarter period between two frames. The sixteenths only count periods: the displacement itself is
-// the difference of two coordinates and does not depend on when frames were taken. 2^27 periods fit.
+// Along one axis. from: the coordinate of each disk at the start, by id (NaN: no such disk; the list is empty if only
+// rounds are counted). sixteenth: for a periodic axis, the unwrapped coordinate in sixteenths of the period, rounded
+// down (not_followed: no such disk). As long as no disk moves by more than a quarter period between two times at which
+// positions are noted, this counts its rounds. The displacement itself is the difference of two coordinates plus
+// periods, so it does not depend on when positions were noted. 2^27 periods fit.
 inline constexpr std::int32_t not_followed = std::numeric_limits<std::int32_t>::min();
 struct AxisTally {
   std::vector<double> from;             // length
-  std::vector<std::int32_t> sixteenth;  // empty where the axis is not periodic
+  std::vector<std::int32_t> sixteenth;  // empty if the axis is not periodic
 };
 
 struct DisplacementTally {
   bool begun = false;
   AxisTally x, y;
-  double looked_at = 0.0;   // time of the last look
-  double fastest = 0.0;     // largest speed when it was last asked for
-  double checked_at = 0.0;  // and when that was
-  Count doubtful = 0;       // moves between two looks that were, or may have been, too long to be sure of
+  double looked_at = 0.0;   // time at which positions were last noted
+  double fastest = 0.0;     // largest speed when it was last computed
+  double checked_at = 0.0;  // time of that
+  Count doubtful = 0;       // moves between two notes that were, or may have been, longer than a quarter period
 };
 
 // As fastest_speed(const Disks&): length / time, 0 without disks.
 double fastest_speed(const DisksInPieces& disks);
 
-// From here on displacements count, of the disks that are there.
+// Displacements count from the present positions, for the present disks.
 void begin_displacement(DisplacementTally& tally, const DisksInPieces& disks, const Domain& box);
 inline void begin_displacement(DisplacementTally& tally, const Disks& disks, const Domain& box, double time) {
   begin_displacement(tally, WholeDisks(disks, time), box);
 }
 
-// Takes note of where the disks are; a disk that came later is not followed.
+// Notes the positions of the disks; a disk that came after the beginning is not followed.
 void look_at(DisplacementTally& tally, const Disks& disks, const Domain& box, double time);
 void look_at(DisplacementTally& tally, const DisksInPieces& disks, const Domain& box);
 
-// Takes note of where the disks are, and follows those that it does not know yet from here on, for their rounds alone:
-// a disk that it meets for the first time has gone round 0 times.
+// Notes the positions, and follows new disks from now on, for their rounds alone: a new disk has 0 rounds.
 void follow_rounds(DisplacementTally& tally, const DisksInPieces& disks, const Domain& box,
                    const BlockRunner& run = run_in_order);
 
@@ -58,13 +57,13 @@ inline void follow_rounds(DisplacementTally& tally, const Disks& disks, const Do
   follow_rounds(tally, WholeDisks(disks, time), box);
 }
 
-// How often a disk has gone round, upwards along the axis less downwards: its unwrapped coordinate is x + period *
-// rounds. 0 where the axis is not periodic.
+// The rounds of a disk, upwards along the axis less downwards: its unwrapped coordinate is x + period * rounds. 0 if
+// the axis is not periodic.
 std::int32_t rounds_of(const AxisTally& axis, DiskId id);
 
-// Mean of (x - x_0)^2 + (y - y_0)^2 over the disks of the start that are still there, of (y - y_0)^2 in a sheared box;
-// length^2, NaN without any.
-// Precondition: look_at was the last to see these disks. Sums in order of ids: the same bits in any storage order.
+// Mean of (x - x_0)^2 + (y - y_0)^2, in a sheared box of (y - y_0)^2, over the initial disks that are still there;
+// length^2, NaN without any. Precondition: the present positions have been noted. Sums run in order of ids: the same
+// bits for any storage order.
 struct MeanSquare {
   double value = 0.0;
   Count disks = 0;

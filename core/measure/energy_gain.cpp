@@ -11,7 +11,7 @@ namespace carom {
 
 namespace {
 
-// Have disks gone that may have had less than no energy, so that those that are left have more without them?
+// May disks of negative energy have left, so that the energy of the others is larger than that at the start?
 bool may_lose_negative(const Scene& scene, const State& state) {
   const Gravity& g = scene.physics.gravity;
   return state.counters.removed > 0 && (g.left < 0.0 || g.down < 0.0);
@@ -34,7 +34,7 @@ std::vector<std::string> energy_warnings(const Scene& scene, const RunStart& sta
   const bool exact = scene.run.method == Method::exact;
   const double emitted = state.counters.emitted_energy;
   double before = start.energy.total() + emitted;
-  // What rounding is to be held against. A potential may be negative, as it is 0 at the lower left corner.
+  // The scale of rounding. Potential energies may be negative, since they are 0 at the lower left corner.
   double moved = start.energy.kinetic + std::abs(start.energy.potential) + start.energy.rotational + std::abs(emitted);
   for (const double heat : state.counters.side_energy) {
     before += heat;

@@ -1,4 +1,4 @@
-// Energy that nothing put into a run.
+// A warning about energy that a run has gained without a source of it.
 #pragma once
 
 #include <string>
@@ -10,19 +10,20 @@
 
 namespace carom {
 
-// Energy at the end, over what was put in at the start and by sources, above which it comes from nowhere: for exact
-// beyond all rounding, for time stepping beyond its error of first order.
+// Largest relative gain of energy that gives no warning: for exact above all rounding, for time stepping above its
+// error of first order.
 inline constexpr double most_gain_exact = 1e-9;
 inline constexpr double most_gain_stepping = 0.01;
 
-// Does gravity act along a periodic axis? A disk that goes round there has its potential energy anew each time.
+// Does gravity act along a periodic axis? A disk then regains its potential energy each time it crosses the side.
 bool falls_for_ever(const Scene& scene);
 
-// What a run at its end has to say of energy that nothing put in. Brownian motion keeps none; nothing can be said where
-// gravity acts along periodic sides, nor where it pulls to the right or up and disks have left.
+// For the end of a run: a line if its energy has grown without a source of it. Always none with Brownian motion, which
+// does not conserve energy, if gravity acts along a periodic axis, and if gravity points to the right or up and disks
+// have left.
 std::vector<std::string> energy_warnings(const Scene& scene, const RunStart& start, const State& state);
 
-// The same where the energy is known; of state, the disks are not looked at.
+// The same with known energy; the disks of state are not used.
 std::vector<std::string> energy_warnings(const Scene& scene, const RunStart& start, const State& state,
                                          const Energy& now);
 

@@ -1,4 +1,4 @@
-// When to look where disks are, so that none goes half round a periodic box unseen.
+// When to note the positions of disks, so that every crossing of a periodic box is counted.
 #pragma once
 
 #include <string>
@@ -10,15 +10,15 @@
 
 namespace carom {
 
-// Brings the tally up to time t, start of the engine's last step <= t <= its state's time; to be called after each
-// step, and for every time at which displacements are wanted, in order of time. The largest speed, seen at ends of
-// steps and on paths within them, says how far a disk can have come since the last look; a step so long that a quarter
-// of the period is within reach is looked at in between, as far as the engine knows its paths. Where it does not, the
-// tally counts a doubt. Returns whether the disks at t themselves are due for a look now.
+// Brings the tally up to time t, which lies within the engine's last step. To be called after each step, and for every
+// time at which displacements are wanted, in order of time. The largest speed, at ends of steps and on paths within
+// them, bounds how far a disk can have moved since positions were last noted. If that may be more than a quarter of the
+// period within a step, positions are noted at times in between, if the engine keeps paths; otherwise the tally counts
+// a doubtful move. Returns whether the positions at t have to be noted now.
 bool follow_disks(DisplacementTally& tally, const Engine& engine, const Scene& scene, double t);
 
-// What a run says of the first doubt. what: that is measured; wrong: what may be; every: the key of the time between
-// looks of that, which an exact run may have as short as it takes.
+// The warning about the first doubtful move. what: the measured quantity; wrong: what may be wrong with it; every: the
+// key of its sampling interval, which can be shortened in an exact run.
 std::string doubt_text(const DisplacementTally& tally, const Scene& scene, std::string_view what,
                        std::string_view wrong, std::string_view every);
 

@@ -1,4 +1,4 @@
-// Where the disks of one group are and how they move: their mean place and velocity, and the temperature around it.
+// The motion of the disks of one group: centre of mass, its velocity, and the temperature relative to that.
 #pragma once
 
 #include <cstddef>
@@ -9,16 +9,17 @@
 namespace carom {
 
 struct GroupMotion {
-  double kinetic = 0.0;      // sum of m v^2 / 2; energy
-  double temperature = 0.0;  // sum of m (v - V)^2 / 2 over the number of disks (k_B = 1); energy; NaN without any
-  Vec2 velocity;             // V: momentum over mass; length / time; NaN without any
-  Vec2 centre;               // of mass, of places as they are in the box; length; NaN without any
+  double kinetic = 0.0;  // sum of m v^2 / 2; energy
+  double temperature =
+      0.0;        // sum of m (v - V)^2 / 2, divided by the number of disks (k_B = 1); energy; NaN without disks
+  Vec2 velocity;  // V: momentum over mass; length / time; NaN without disks
+  Vec2 centre;    // centre of mass of the positions in the box, not unwrapped; length; NaN without disks
   Count disks = 0;
 };
 
-// The motion of disks that come in pieces: all of them by add(), and then all once more by add_thermal(), as only then
-// their mean velocity is known. members: storage indices in order of id, over all pieces too, so that the sums have the
-// same bits in any storage order.
+// The motion of disks that come in pieces. All pieces go through add(), then all once more through add_thermal(), since
+// that needs the mean velocity. members: storage indices in order of id; pieces too must come in order of id, so that
+// the sums have the same bits for any storage order.
 class GroupTally {
  public:
   void add(const Disks& disks, std::span<const std::size_t> members);

@@ -1,4 +1,4 @@
-// What is conserved, and how far a state is from being one of hard disks.
+// Conserved quantities of a state, and the overlaps that hard disks would not have.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ struct Momentum {
   double magnitude = 0.0;  // sum of m |v|, the scale for a relative drift
 };
 
-// Disks a block: sums run within blocks, then over the blocks' sums, in id order.
+// Disks in a block: sums run within blocks, then over the blocks' sums, in order of id.
 inline constexpr std::size_t sum_block = 4096;
 
 template <class Term>
@@ -44,7 +44,7 @@ double blocked_sum(const std::vector<std::size_t>& order, const BlockRunner& run
   return total;
 }
 
-// Of disk i.
+// Energy of disk i.
 inline double kinetic_energy_of(const Disks& d, std::size_t i) {
   return 0.5 * d.mass_of(i) * (d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
 }
@@ -58,16 +58,16 @@ inline double momentum_magnitude_of(const Disks& d, std::size_t i) {
   return d.mass_of(i) * std::sqrt(d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i]);
 }
 
-// Sums in id order within blocks of fixed size: the same bits for any storage order and thread count.
+// Sums run in order of id within blocks of fixed size: the same bits for any storage order and number of threads.
 Energy energy_of(const Disks& disks, const Gravity& gravity);
 Momentum momentum_of(const Disks& disks);
 
-// The same, where by_id(disks) is known already and work can be shared.
+// The same with order = by_id(disks), and blocks run by `run`.
 Energy energy_of(const Disks& disks, const std::vector<std::size_t>& order, const Gravity& gravity,
                  const BlockRunner& run);
 Momentum momentum_of(const Disks& disks, const std::vector<std::size_t>& order, const BlockRunner& run);
 
-// |end - start| over the larger of the two sums of m |v|; 0 where nothing moves.
+// |end - start| over the larger of the two sums of m |v|; 0 if nothing moves.
 double momentum_drift(const Momentum& start, const Momentum& end);
 
 // Largest overlap of two disks over the sum of their radii (nearest image), 0 if none; uses a grid, O(N).
@@ -76,12 +76,12 @@ double max_overlap(const Disks& disks, const Domain& box, const BlockRunner& run
 // Largest reach of a disk beyond a wall side over its radius, 0 if none.
 double wall_overlap(const Disks& disks, const Domain& box);
 
-// The same, and of which disks.
+// The larger of the two, with the ids of the disks.
 Overlap deepest_overlap(const Disks& disks, const Domain& box, const BlockRunner& run = run_in_order);
 Overlap deepest_wall_overlap(const Disks& disks, const Domain& box);
 
 // P A = K + virial / (2 elapsed) (virial theorem in two dimensions; ideal part K = N kT). 0 if elapsed is 0. A is the
-// room between the sides where the box has them.
+// area between the sides at their present places.
 double pressure(const Energy& energy, double virial, double elapsed, const Domain& box);
 
 }  // namespace carom

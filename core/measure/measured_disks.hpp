@@ -1,5 +1,5 @@
-// The disks that a measurement is of, as they come, whole or in pieces: those of a group, and with velocities relative
-// to a shear flow.
+// Views of the disks for measurements, whole or in pieces: only those of a group, with velocities relative to a shear
+// flow, or with psi6.
 #pragma once
 
 #include <optional>
@@ -11,10 +11,10 @@
 
 namespace carom {
 
-// Those with these ids.
+// The disks with these ids.
 Disks disks_of(const Disks& all, const IdRange& ids);
 
-// The same of disks that outlive this; without ids, all of them.
+// The same as a view of disks, which must outlive it; without ids, all disks.
 class DisksOfGroup final : public DisksInPieces {
  public:
   DisksOfGroup(const DisksInPieces& all, const std::optional<IdRange>& ids);
@@ -31,7 +31,7 @@ class DisksOfGroup final : public DisksInPieces {
   mutable std::optional<Disks> whole_;  // once asked for
 };
 
-// With velocities relative to the flow, where the box is sheared; all of it outlives this.
+// A view with velocities relative to the flow of a sheared box. Disks and box must outlive it.
 class DisksInFlow final : public DisksInPieces {
  public:
   DisksInFlow(const DisksInPieces& disks, const Domain& box) : disks_(disks), box_(box) {}
@@ -47,8 +47,9 @@ class DisksInFlow final : public DisksInPieces {
   mutable std::optional<Disks> whole_;  // once asked for
 };
 
-// With psi6 in place of velocities (with_orders), found by those that have the disks, or else among all of them. all:
-// of which the disks are those that are measured. box: at their time. All of it outlives this.
+// A view with psi6 in place of velocities (with_orders). Each rank computes psi6 of its own disks if it can; otherwise
+// all disks are gathered. all: all disks, of which `disks` are measured. box: at their time. All arguments must outlive
+// the view.
 class DisksWithOrders final : public DisksInPieces {
  public:
   DisksWithOrders(const DisksInPieces& all, const DisksInPieces& disks, const Domain& box, const BlockRunner& run)

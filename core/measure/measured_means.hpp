@@ -1,5 +1,4 @@
-// What an analysis comes to as single numbers: means of what it has as one value a sample, and the diffusion
-// coefficient.
+// The single numbers of an analysis: means of its series, and the diffusion coefficient.
 #pragma once
 
 #include <string_view>
@@ -13,17 +12,16 @@ namespace carom {
 
 struct MeasuredMean {
   std::string_view name;
-  double value = 0.0;  // NaN where there are too few samples
+  double value = 0.0;  // NaN with too few samples
   double error = 0.0;  // its standard error; NaN likewise
 };
 
-// Of those among pressure, collision_rate, diffusion, bond_order_local and bond_order_global that the scene asks for,
-// in this order: their means over the samples (of the first two weighted by the intervals), with the standard error by
-// blocking (blocking_error.hpp).
+// Means over the samples, in this order, of pressure, collision_rate, diffusion, bond_order_local and
+// bond_order_global, as far as the scene asks for them; the first two are weighted by the intervals. Standard errors
+// are by blocking (blocking_error.hpp).
 std::vector<MeasuredMean> measured_means(const AnalysisRecord& record, const Scene& scene);
 
-// The diffusion coefficient that the displacement shows, in a shear flow that along y. Precondition: the scene asks for
-// the displacement.
+// The diffusion coefficient; in a shear flow, of the motion along y. Precondition: the scene asks for the displacement.
 DiffusionFit diffusion_of(const AnalysisRecord& record, const Scene& scene);
 
 }  // namespace carom

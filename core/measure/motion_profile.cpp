@@ -14,7 +14,7 @@ MotionProfile empty_profile(std::size_t slabs) {
 
 namespace {
 
-// What one sample has of a slab. Velocities are measured from that of the first disk, u, so that a slow motion within a
+// Sums over a slab in one sample. Velocities are relative to that of the first disk, u, so that a slow motion within a
 // fast flow is not lost in the rounding of the flow's energy.
 struct SlabSample {
   double mass = 0.0;
@@ -31,10 +31,10 @@ struct SlabSample {
   }
 };
 
-// Adds what slab k has in a sample to the sums, as Chan, Golub and LeVeque (1983) join variances.
+// Adds a sample of slab k to the sums, as Chan, Golub and LeVeque (1983) combine variances.
 void add_sample(MotionProfile& profile, std::size_t k, const SlabSample& s) {
   if (s.mass == 0.0) return;
-  const Vec2 mean{s.momentum.x / s.mass, s.momentum.y / s.mass};  // from u
+  const Vec2 mean{s.momentum.x / s.mass, s.momentum.y / s.mass};  // relative to u
   const double within = s.twice_k - (s.momentum.x * mean.x + s.momentum.y * mean.y);
   double between = 0.0;
   if (profile.mass[k] > 0.0) {

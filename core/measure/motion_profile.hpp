@@ -1,4 +1,4 @@
-// How disks move along an axis: mean velocity and temperature, slab by slab.
+// Profiles of mean velocity and temperature along an axis, slab by slab.
 #pragma once
 
 #include <vector>
@@ -14,13 +14,13 @@ struct MotionProfile {
   std::vector<Count> disks;
   std::vector<double> mass;
   std::vector<double> px, py;         // m v
-  std::vector<double> twice_thermal;  // m (v - V)^2, V the mean velocity of them all
+  std::vector<double> twice_thermal;  // m (v - V)^2, V the mean velocity over all disks and samples of the slab
   Count samples = 0;
 };
 
 MotionProfile empty_profile(std::size_t slabs);
 
-// In order of ids: the same bits in any storage order.
+// Sums run in order of ids: the same bits for any storage order.
 void add_motion(MotionProfile& profile, const DisksInPieces& disks, const Domain& box, bool along_x);
 inline void add_motion(MotionProfile& profile, const Disks& disks, const Domain& box, bool along_x) {
   add_motion(profile, WholeDisks(disks, 0.0), box, along_x);
@@ -29,8 +29,8 @@ inline void add_motion(MotionProfile& profile, const Disks& disks, const Domain&
 // Adds the samples of another profile with as many slabs.
 void join(MotionProfile& profile, const MotionProfile& other);
 
-// Of slab k: the mean velocity V of all its disks and samples, and the temperature, sum of m (v - V)^2 / 2 a disk. NaN
-// where no disk was.
+// Slab k: the mean velocity V of all its disks and samples, and the temperature, sum of m (v - V)^2 / 2 over the number
+// of disks. NaN if there was no disk.
 struct SlabMotion {
   Vec2 velocity;
   double temperature = 0.0;

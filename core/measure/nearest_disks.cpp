@@ -44,7 +44,7 @@ NearestDisks::NearestDisks(const Disks& disks, const Domain& box, const BlockRun
   run(spans.size(), [&](std::size_t k) { divide(spans.size() - 1 + k, spans[k]); });
 }
 
-// Puts the rectangle around the node's centres, and those of its two halves apart. Returns where the second half
+// Sets the bounding rectangle of the node's centres, and sorts them into its two halves. Returns where the second half
 // begins.
 std::size_t NearestDisks::halve(std::size_t node, Span span) {
   Node& n = nodes_[node];
@@ -70,7 +70,7 @@ void NearestDisks::divide(std::size_t node, Span span) {
   divide(2 * node + 2, {middle, span.end});
 }
 
-// One disk's, from one image of it after the other.
+// The search for the neighbours of one disk, starting from each of its images in turn.
 class NearestDisks::Search {
  public:
   Search(const NearestDisks& all, const Centre& own) : all_(all), own_(own) {
@@ -92,8 +92,8 @@ class NearestDisks::Search {
   }
 
  private:
-  // Calls see(c + k period, k) for k = 0, 1, -1, 2 and so on to -last, up to those further than the sixth neighbour
-  // from all that lies between low and high.
+  // Calls see(c + k period, k) for k = 0, 1, -1, 2 and so on to -last, until the image is further from [low, high] than
+  // the sixth neighbour found.
   template <class See>
   void images(double c, double period, double last, double low, double high, See&& see) {
     see(c, 0.0);
@@ -116,7 +116,7 @@ class NearestDisks::Search {
     return x * x + y * y;
   }
 
-  // At the disks [begin, end) of a node, the nearer half first.
+  // Searches the disks [begin, end) of a node, the nearer half first.
   void look(Vec2 from, std::size_t node, std::size_t begin, std::size_t end) {
     if (node >= all_.first_leaf_) return look_at_leaf(from, begin, end);
     const std::size_t middle = begin + (end - begin) / 2, before = 2 * node + 1, after = before + 1;
@@ -134,8 +134,8 @@ class NearestDisks::Search {
     }
   }
 
-  // A disk may be met at several of its images: one of them is the nearest. In a flat sheared box it is met, and the
-  // nearest looked for, in very many rows: so first whether it is known.
+  // A disk may be met through several images, of which one is the nearest. In a flat sheared box it is met in very many
+  // rows, and its nearest image is expensive to find; so it is first tested whether the disk is known already.
   void meet(const Centre& c) {
     if (c.disk == own_.disk) return;
     for (const Neighbour& n : found_) {
@@ -147,7 +147,7 @@ class NearestDisks::Search {
     found_.back() = met;
     for (std::size_t k = neighbours_of_bonds - 1; k > 0 && found_[k] < found_[k - 1]; --k)
       std::swap(found_[k], found_[k - 1]);
-    // A little further, as places of images are rounded.
+    // A little further, since positions of images are rounded.
     const double reach = std::sqrt(found_.back().distance2) + 0x1p-46 * (all_.box_.width + all_.box_.height);
     reach2_ = reach * reach;
   }
@@ -155,14 +155,15 @@ class NearestDisks::Search {
   const NearestDisks& all_;
   const Centre& own_;
   NearestNeighbours found_;
-  double reach2_ = HUGE_VAL;  // nothing further away is asked for; length^2
+  double reach2_ = HUGE_VAL;  // disks further away are not needed; length^2
 };
 
 NearestNeighbours NearestDisks::of(std::size_t k) const {
   return Search(*this, centres_[k]).find();
 }
 
-// To the nearest image; in a sheared box that may be one several rows of images away, where disks are few.
+// To the nearest image. With few disks in a sheared box, the image nearest among all neighbours may be several rows
+// away.
 Vec2 NearestDisks::apart(const Centre& from, const Centre& to) const {
   const Vec2 raw{to.x - from.x, to.y - from.y};
   return box_.shear.acts() ? nearest_of_rows(raw) : nearest_image(raw, box_);

@@ -1,4 +1,4 @@
-// The six nearest neighbours of each disk, whatever the density around it.
+// The six nearest neighbours of each disk, at any density.
 #pragma once
 
 #include <array>
@@ -22,20 +22,19 @@ struct Neighbour {
 
 inline constexpr std::size_t neighbours_of_bonds = 6;
 using NearestNeighbours =
-    std::array<Neighbour, neighbours_of_bonds>;  // nearest first; of equally far ones the lowest id
+    std::array<Neighbour, neighbours_of_bonds>;  // nearest first; of two at the same distance, the lower id first
 
-// Centres in a tree: each node halves the disks below it across the longer side of the rectangle that they lie in.
-// Where most disks are in a few places of the box, cells of one size would have far too many in them, or be far too
-// many.
+// The centres in a tree: each node divides its disks into halves across the longer side of their bounding rectangle. If
+// most disks are in a few places of the box, cells of one size would hold too many disks, or be too many.
 class NearestDisks {
  public:
   // The box must outlive it. Precondition: seven disks or more.
   NearestDisks(const Disks& disks, const Domain& box, const BlockRunner& run);
 
-  // The k-th of all disks, in an order in which those near each other come soon after each other.
+  // The storage index of the k-th disk, in an order that keeps disks near each other together.
   std::size_t disk(std::size_t k) const { return centres_[k].disk; }
 
-  // Of that disk, by its distance from the nearest image of each of the others. O(log N).
+  // The neighbours of the k-th disk, by distances to nearest images. O(log N).
   NearestNeighbours of(std::size_t k) const;
 
  private:
@@ -59,9 +58,9 @@ class NearestDisks {
   Vec2 nearest_of_rows(Vec2 raw) const;
 
   const Domain& box_;
-  std::size_t first_leaf_ = 0;  // the nodes from here on have no nodes below them, those before two each, at 2 k + 1
+  std::size_t first_leaf_ = 0;  // nodes from here on are leaves; node k before has children 2 k + 1 and 2 k + 2
   std::vector<Node> nodes_;
-  std::vector<Centre> centres_;  // those of a node lie one after the other
+  std::vector<Centre> centres_;  // contiguous for each node
 };
 
 }  // namespace carom

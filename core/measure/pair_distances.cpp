@@ -9,18 +9,18 @@ namespace carom {
 
 namespace {
 
-// Disks a cell, about: a run of them that a chord reaches has a few too many at each end.
+// About so many disks in a cell: the cells that a chord reaches contain a few disks too many at each end.
 constexpr std::size_t disks_a_cell = 2;
 
-// Rows of r_max / rows_ahead or more, as many as there are disks for along a side. Where a side is periodic, those
-// above and below have to be different ones.
+// The number of rows: each r_max / rows_ahead high or more, and no more than disks along a side. In a periodic box the
+// rows above and below a row must be different ones.
 std::size_t rows_for(const Domain& box, double r_max, std::size_t rows_ahead, std::size_t disks) {
   const double most = std::sqrt(static_cast<double>(disks)) + 1.0;
   const auto rows = static_cast<std::size_t>(cells_along(box.height, r_max / static_cast<double>(rows_ahead), most));
   return box.periodic_y() && rows < 2 * rows_ahead + 1 ? 1 : rows;
 }
 
-// Where centres may be along an axis: the margin away from both sides, wherever those are that move; length.
+// The range of centres along an axis: away from both sides, at their present places, by the margin; length.
 struct Extent {
   double low = 0.0, high = 0.0, length = 0.0;
   bool holds(double c) const { return c >= low && c <= high; }
@@ -69,13 +69,13 @@ DistanceCells::DistanceCells(const Disks& d, const Domain& box, const DistanceBi
   }
 }
 
-// The cell of a row that holds x; the nearest one for what lies outside.
+// The cell of a row that holds x; outside the box, the nearest one.
 std::size_t DistanceCells::cell_at(std::size_t row, double x) const {
   return row * columns_ + cell_index(x / box_.width * static_cast<double>(columns_), columns_);
 }
 
-// Half the chord of the circle round a place where it is widest in the row so many rows above; negative: the row is out
-// of reach. A disk below the box counts to the lowest row, one above it to the uppermost.
+// Half the widest chord, within the row rows_above above, of the circle around a place; negative if the row is out of
+// reach. Disks below the box are in the lowest row, disks above it in the uppermost.
 double DistanceCells::chord(std::size_t place, std::size_t rows_above, std::size_t row) const {
   const double edge = static_cast<double>(row + rows_above) * row_height_;
   const double height = std::max(0.0, edge - y_[place] - margin_);

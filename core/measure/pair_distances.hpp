@@ -1,4 +1,4 @@
-// How many pairs of disks are how far apart: what the pair correlation g(r) is made of.
+// Counts of pairs of disks by their distance, for the pair correlation g(r).
 #pragma once
 
 #include <algorithm>
@@ -24,9 +24,9 @@ struct DistanceBins {
   double wall_margin = 0.0;  // see DistancePlan
 };
 
-// The disks sorted into rows across the box, and along each into cells. A row's height is half of r_max or more, so
-// that partners lie in the two rows above and below; in each of these, in cells that a chord of the circle of radius
-// r_max reaches. A box that is low for that and periodic has one row.
+// The disks, sorted into rows across the box and into cells along each row. A row is r_max / 2 high or more, so
+// partners are in the same row or the two above and below, in cells that a chord of the circle of radius r_max reaches.
+// A periodic box too low for that has one row.
 class DistanceCells {
  public:
   struct Span {
@@ -37,35 +37,36 @@ class DistanceCells {
   DistanceCells(const Disks& disks, const Domain& box, const DistanceBins& bins);
 
   std::size_t rows() const { return rows_; }
-  // Rows in blocks to be counted apart.
+  // Blocks of rows, which can be counted independently.
   std::size_t blocks() const { return (rows_ + rows_a_block() - 1) / rows_a_block(); }
   Span rows_of(std::size_t block) const {
     return {block * rows_a_block(), std::min(rows_, (block + 1) * rows_a_block())};
   }
   std::size_t centres() const { return centres_; }
 
-  // Disks have places in the order of their cells. By place: where the disk is stored; 1 if its surroundings count.
+  // A disk's place is its position in the order of cells. By place: the storage index; whether the disk is a centre (1)
+  // from which pairs are counted.
   const std::vector<std::uint32_t>& disks() const { return disk_; }
   const std::vector<std::uint8_t>& are_centres() const { return centre_; }
 
-  // Adds to counts[k] the ordered pairs (i, j) in bin k whose first disk is a centre, of which the one in the lower
-  // row, or the first one of a row, lies in rows [begin, end). Integers: rows may be counted apart, in any order, and
-  // added.
+  // Adds to counts[k] the ordered pairs (i, j) in bin k whose first disk is a centre. A pair belongs to rows [begin,
+  // end) if its disk in the lower row, or the first of two in one row, lies there. Counts are integers: rows may be
+  // counted separately, in any order, and added.
   void count(std::size_t begin, std::size_t end, std::vector<Count>& counts) const;
 
-  // Calls add(k, p, q) once for each pair of places in bin k of which the one in the lower row, or the first one of a
-  // row, lies in rows [begin, end), in an order that depends on the order of storage alone.
+  // Calls add(k, p, q) once for each pair of places in bin k that belongs to rows [begin, end), in an order that
+  // depends only on the order of storage.
   template <class Add>
   void visit(std::size_t begin, std::size_t end, const Add& add) const;
 
  private:
-  // What is added to the difference of two places, that of an image.
+  // The displacement of an image.
   struct Shift {
     double x, y;  // length; 0, or a period
   };
   static constexpr std::size_t rows_ahead = 2;
-  static constexpr std::size_t most_blocks = 256;  // each has sums of its own
-  static constexpr std::size_t run_length = 256;   // of places that are compared with one at a time
+  static constexpr std::size_t most_blocks = 256;  // each has its own sums
+  static constexpr std::size_t run_length = 256;   // of places whose distances from one place are computed together
 
   std::size_t rows_a_block() const { return (rows_ + most_blocks - 1) / most_blocks; }
   std::size_t cell_at(std::size_t row, double x) const;
@@ -85,7 +86,7 @@ class DistanceCells {
   Domain box_;
   std::size_t rows_ = 1, columns_ = 1;
   double row_height_ = 0.0;  // length
-  double margin_ = 0.0;      // rounding of a place, generously; length
+  double margin_ = 0.0;      // a generous bound on the rounding of positions; length
   std::size_t centres_ = 0;
   std::vector<std::uint32_t> start_;  // of each cell among the places, one more than cells
   std::vector<double> x_, y_;         // by place; length
@@ -93,8 +94,8 @@ class DistanceCells {
   std::vector<std::uint8_t> centre_;
 };
 
-// distance2(q): of place q from this one; length^2. First the distances of a run, in bins, so that they are computed
-// several at a time; add is copied, so that what it refers to stays in registers.
+// distance2(q): squared distance of place q from this one; length^2. The bins of a whole run are computed first,
+// several at a time in vector registers. add is taken by value, so that its references stay in registers.
 template <class Distance2, class Add>
 void DistanceCells::visit_run(std::size_t place, std::size_t begin, std::size_t end, const Distance2& distance2,
                               Add add) const {
@@ -116,7 +117,8 @@ void DistanceCells::visit_run(std::size_t place, std::size_t begin, std::size_t 
   }
 }
 
-// With one image of each disk: as r_max is at most half a period, no other one is as near, so that no pair comes twice.
+// With one image of each disk: since r_max is at most half a period, no other image is as near, and no pair comes
+// twice.
 template <class Add>
 void DistanceCells::visit_shifted(std::size_t place, std::size_t begin, std::size_t end, Shift shift,
                                   const Add& add) const {
@@ -141,7 +143,7 @@ void DistanceCells::visit_sheared(std::size_t place, std::size_t begin, std::siz
   visit_run(place, begin, end, distance2, add);
 }
 
-// A row that is so many rows above that of the place, round the corner of a periodic side.
+// The row rows_above above that of the place, across a periodic side if need be.
 template <class Add>
 void DistanceCells::visit_row_above(std::size_t place, std::size_t row, std::size_t rows_above, const Add& add) const {
   const std::size_t other = row + rows_above;
@@ -165,7 +167,7 @@ void DistanceCells::visit_row_above(std::size_t place, std::size_t row, std::siz
   }
 }
 
-// With those behind the place.
+// With the places after this one in its row.
 template <class Add>
 void DistanceCells::visit_own_row(std::size_t place, std::size_t row, double shift_y, const Add& add) const {
   const double reach = bins_.r_max + margin_;
@@ -179,7 +181,7 @@ void DistanceCells::visit_own_row(std::size_t place, std::size_t row, double shi
   if (low < period) {
     visit_shifted(place, std::max<std::size_t>(first, start_[cell_at(row, low)]), last, {-period, shift_y}, add);
   }
-  // Those are behind the place only where they are in the same cell.
+  // Images to the left come after the place only if they are in the same cell.
   if (high >= period) {
     visit_shifted(place, first, start_[cell_at(row, high - period) + 1], {period, shift_y}, add);
   }
@@ -206,12 +208,13 @@ void DistanceCells::visit(std::size_t begin, std::size_t end, const Add& add) co
   }
 }
 
-// The same whoever runs the blocks, as whole numbers add up to the same in any order.
+// The same for any runner, since integers add up to the same in any order.
 PairCounts count_pairs(const Disks& disks, const Domain& box, const DistanceBins& bins,
                        const BlockRunner& run = run_in_order);
 
-// The places from which pairs are counted: the box without a margin along sides that are not periodic, where they are
-// at the time of the box, so that the whole circle of radius r_max lies where centres can be. Area; length^2.
+// Area of the region of centres from which pairs are counted; length^2. It keeps a margin from sides that are not
+// periodic (at their places at the time of the box), so that the whole circle of radius r_max lies where centres can
+// be.
 double area_of_centres(const Domain& box, const DistanceBins& bins);
 
 }  // namespace carom

@@ -17,7 +17,7 @@ void add_pairs(PairRecord& pairs, const PairCounts& found, double area) {
   if (found.centres > 0) pairs.expected += n * (n - 1.0) / area;
 }
 
-// Pairs of two groups are those of both together without those of each.
+// Pairs of two different groups: those of the union less those within each.
 PairCounts between(const PairCounts& both, const PairCounts& one, const PairCounts& other) {
   PairCounts pairs{both.centres, both.counts};
   for (std::size_t k = 0; k < pairs.counts.size(); ++k) pairs.counts[k] -= one.counts[k] + other.counts[k];
@@ -57,7 +57,7 @@ void add_pairs(PairRecord& measured, std::vector<PairRecord>& partial, const Ana
   const double area = area_of_centres(box, distance_bins(plan.pairs));
   add_pairs(measured, found.front(), area);
   const std::size_t groups = plan.pair_groups.size();
-  std::vector<std::size_t> alone;  // where the pairs of each group are
+  std::vector<std::size_t> alone;  // indices of the pairs within each group
   for (std::size_t k = 0, next = 1; k < groups; next += groups - k++) alone.push_back(next);
   for (std::size_t k = 0; k < groups; ++k) {
     const PairCounts& one = found[alone[k]];

@@ -1,4 +1,4 @@
-// What is remembered of the start of a run, for the summary at its end.
+// Figures of the start of a run, for the summary at its end.
 #pragma once
 
 #include "core/disks/state.hpp"
@@ -12,7 +12,7 @@ struct RunStart {
   double time = 0.0;
   Energy energy;
   Momentum momentum;
-  double relative = 0.0;  // kinetic energy relative to the flow of a sheared box; of others, the kinetic energy
+  double relative = 0.0;  // kinetic energy relative to the flow of a sheared box; in other boxes, the kinetic energy
 };
 
 RunStart run_start(const State& state, const Scene& scene);

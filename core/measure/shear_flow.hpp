@@ -1,4 +1,4 @@
-// What is measured in a shear flow: velocities relative to it, stress and viscosity.
+// Measurements in a shear flow: velocities relative to it, and the stress.
 #pragma once
 
 #include "core/disks/disks.hpp"
@@ -6,8 +6,7 @@
 
 namespace carom {
 
-// The disks with velocities relative to the flow rate (y - height / 2) along x. The disks themselves where the box is
-// not sheared.
+// The disks with velocities relative to the flow rate (y - height / 2) along x. Unchanged if the box is not sheared.
 Disks relative_to_flow(Disks disks, const Domain& box);
 
 // The stress sigma_xy = -P_xy, which is viscosity times shear rate: with P_xy A = momentum_flow + shear_virial /

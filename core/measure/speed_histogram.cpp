@@ -29,7 +29,7 @@ double maxwell_share(double max, std::size_t bins, std::size_t k) {
   const double width = max / static_cast<double>(bins);
   const double low = width * static_cast<double>(k);
   const double high = width * static_cast<double>(k + 1);
-  // exp(-a) - exp(-b) = exp(-a) (1 - exp(a - b)), without cancelling
+  // exp(-a) - exp(-b) = exp(-a) (1 - exp(a - b)), without cancellation
   return -std::exp(-0.5 * low * low) * std::expm1(0.5 * (low * low - high * high));
 }
 

@@ -1,4 +1,4 @@
-// What a summary says of all disks of a state together, for a program that need not have them at the same time.
+// Sums over the disks of a state, for the summary; they can be taken in pieces.
 #pragma once
 
 #include <cstdint>
@@ -21,12 +21,12 @@ struct DeepestOverlaps {
   Overlap disks, wall;
 };
 
-// The sums from disks that come in pieces: the bits of energy_of and momentum_of all the same.
+// The sums from disks that come in pieces, with the bits of energy_of and momentum_of.
 class StateTally {
  public:
   StateTally(const Scene& scene, double time) : scene_(scene), box_(box_at(scene.box, time)) { sums_.at.time = time; }
 
-  // The next disks in order of id; order: by_id(disks).
+  // Adds the next piece, in order of id; order: by_id(disks).
   void add(const Disks& disks, const std::vector<std::size_t>& order);
 
   StateSums sums() const;
@@ -39,7 +39,7 @@ class StateTally {
   BlockedTally kinetic_, potential_, rotational_, relative_, px_, py_, magnitude_;
 };
 
-// Of a state with all disks.
+// The sums of a state that has all disks.
 StateSums sums_of(const State& state, const Scene& scene);
 DeepestOverlaps overlaps_of(const State& state, const Scene& scene);
 

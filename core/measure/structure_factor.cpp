@@ -8,10 +8,10 @@ namespace carom {
 
 namespace {
 
-// So many disks at a time, as the powers of one are a chain in which each waits for the one before.
+// Disks processed together: the powers for one disk are a chain of dependent products.
 constexpr std::size_t disks_at_once = 8;
 
-// Of each the share of a period, in their order.
+// The coordinates of disks in periods, in their order.
 struct SharesOfPeriod {
   std::array<double, disks_at_once> share{};
   std::size_t count = 0;
@@ -24,10 +24,10 @@ class Waves {
  public:
   explicit Waves(std::size_t count) : real_(count, 0.0), imaginary_(count, 0.0) {}
 
-  // Powers of one exponential a disk, as sines and cosines of each wave number would cost many times more. Forgets the
-  // shares.
+  // Takes the powers of one exponential for each disk: a sine and a cosine for each wave number would cost many times
+  // more. Empties the shares.
   void take(SharesOfPeriod& of) {
-    std::array<double, disks_at_once> c{}, s{}, re{}, im{};  // where there is no disk, 0 is added
+    std::array<double, disks_at_once> c{}, s{}, re{}, im{};  // 0 where there is no disk
     for (std::size_t k = 0; k < of.count; ++k) {
       const double phase = 2.0 * std::numbers::pi * of.share[k];
       c[k] = std::cos(phase);
@@ -51,8 +51,8 @@ class Waves {
     of.count = 0;
   }
 
-  // Likewise along x in a sheared box: exp(i n a) with the phase a of k = (2 pi / width) (1, -offset / height), which
-  // goes with the flow, times exp(i m b) with that of k = (0, 2 pi / height), which brings the wave back to the axis.
+  // Along x in a sheared box: exp(i n a) exp(i m b), with the phase a of the wave vector (2 pi / width) (1, -offset /
+  // height), which follows the flow, and the phase b of (0, 2 pi / height), which turns the wave back to the axis.
   void add_sheared(double x, double y, const Domain& box) {
     const double share = box.shear.offset / box.width;
     const double up = y / box.height;
@@ -62,7 +62,7 @@ class Waves {
     double m = 0.0;
     for (std::size_t n = 0; n < real_.size(); ++n) {
       wave = {wave.x * along.x - wave.y * along.y, wave.x * along.y + wave.y * along.x};
-      // The offset is at most half a width: m follows by at most 1.
+      // The offset is at most half a width, so m changes by at most 1.
       const double next = std::floor(static_cast<double>(n + 1) * share + 0.5);
       if (next != m) {
         const double side = next > m ? back.y : -back.y;

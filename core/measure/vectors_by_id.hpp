@@ -1,4 +1,4 @@
-// Two numbers of each disk at one moment, by id: what later moments are compared with.
+// Two numbers of each disk at one moment, by id, for comparison with later moments.
 #pragma once
 
 #include <algorithm>
@@ -9,10 +9,10 @@
 
 namespace carom {
 
-// x, y: vx and vy of all disks, each at the place of its id; NaN where there is no such disk.
+// Stores vx and vy of all disks in x and y by id; NaN for ids without a disk.
 inline void keep_by_id(const DisksInPieces& disks, std::vector<double>& x, std::vector<double>& y) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  // Ids begin without gaps: room that need not grow piece by piece.
+  // Initial ids have no gaps, so this is usually enough.
   x.reserve(disks.size());
   y.reserve(disks.size());
   disks.visit([&](const Disks& d) {

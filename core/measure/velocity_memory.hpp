@@ -1,4 +1,4 @@
-// The velocity autocorrelation: how much of their velocities disks keep.
+// The velocity autocorrelation.
 #pragma once
 
 #include <vector>
