@@ -1,4 +1,4 @@
-// Finding the points near a point among a few thousand, in cells that fit into a core's cache.
+// Finds the points near a point among a few thousand, in cells that fit into a core's cache.
 #pragma once
 
 #include <algorithm>
@@ -11,10 +11,11 @@
 
 namespace carom {
 
-// Cells of at least the reach, in a table of hashed cells: a point's neighbours within reach lie in nine of them.
+// A hash table of cells that are at least as long as the reach: the neighbours of a point within reach lie in nine
+// cells.
 class BatchCells {
  public:
-  // For up to `most` members with numbers below it.
+  // Prepares the cells for up to `most` members, with numbers below `most`.
   void fit(const Domain& box, double reach, std::size_t most) {
     const double columns = std::max(1.0, std::floor(box.width / reach));
     const double rows = std::max(1.0, std::floor(box.height / reach));
@@ -43,7 +44,8 @@ class BatchCells {
     insert(k, to);
   }
 
-  // Is use(k) true for a member k that may be within reach of the point? Asks about some more than once, in any order.
+  // Is use(k) true for any member k that may be within reach of the point? May call use for a member more than once, in
+  // any order.
   template <class Use>
   bool any_near(Vec2 point, Use use) const {
     for (std::int64_t r = -1; r <= 1; ++r) {
@@ -70,11 +72,11 @@ class BatchCells {
 
   std::int64_t column_of(double x) const { return cell_index(x * per_x_, columns_); }
   std::int64_t row_of(double y) const { return cell_index(y * per_y_, rows_); }
-  // The neighbour along a period. Between walls it is none, and its members are asked about in vain.
+  // The cell, wrapped across the period. Between walls that is not a neighbour; testing its members does no harm.
   static std::int64_t turned(std::int64_t cell, std::int64_t cells) {
     return cell < 0 ? cells - 1 : cell >= cells ? 0 : cell;
   }
-  // Neighbours in a row keep together; a prime spreads the rows.
+  // Neighbours in a row are next to each other; a prime factor spreads the rows.
   std::size_t slot(std::int64_t column, std::int64_t row) const {
     const auto hash = static_cast<std::uint64_t>(row) * 0x9e3779b1ULL + static_cast<std::uint64_t>(column);
     return static_cast<std::size_t>(hash) & (head_.size() - 1);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t compact_block = 16384;
 
-// first: where each block's survivors go, a count of survivors scanned in block order.
+// first: the new index of each block's first remaining entry, from their counts scanned in block order.
 template <class T>
 void close_up(std::vector<T>& column, std::vector<T>& scratch, const std::vector<unsigned char>& gone,
               const std::vector<std::size_t>& first, const Executor& executor) {

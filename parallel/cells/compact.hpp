@@ -1,4 +1,4 @@
-// Taking marked disks out of the columns, in parallel; the others close up and keep their order.
+// Removes marked disks from the columns, in parallel; the others close up and keep their order.
 #pragma once
 
 #include <vector>

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t sort_block = 32768;
 // The first digit has at most this many values: a histogram that stays in the first-level cache.
 constexpr std::uint32_t most_buckets = 1024;
-// Disks a block in plain passes over a column.
+// Disks in a block of simple passes over a column.
 constexpr std::size_t pass_block = 16384;
 
 std::uint32_t key_of_disk(const Disks& d, const CellGrid& grid, std::size_t i) {
@@ -34,7 +34,7 @@ Buckets buckets_for(std::uint32_t keys) {
   return {bits, (keys >> bits) + 1};
 }
 
-// First digit: disks to buckets. counts becomes, for each (block, bucket), the place of its first disk.
+// First digit: scatters disks to buckets. counts becomes, for each (block, bucket), the place of its first disk.
 void scatter_to_buckets(const Disks& d, const CellGrid& grid, const Executor& executor, Buckets buckets,
                         SortedCells& cells) {
   const std::size_t n = d.size();
@@ -62,8 +62,8 @@ void scatter_to_buckets(const Disks& d, const CellGrid& grid, const Executor& ex
   });
 }
 
-// Second digit: each bucket by itself. start doubles as the histogram: first the counts, then the running places, and
-// at the end each entry is the first disk of its cell.
+// Second digit: sorts each bucket by itself. start holds first the counts, then the running places, and at the end the
+// first disk of each cell.
 void sort_buckets(const Executor& executor, Buckets buckets, std::uint32_t keys, std::size_t n, SortedCells& cells) {
   const std::size_t last_block = executor.blocks(n, sort_block) - 1;
   executor.run(buckets.count, [&](std::size_t bucket) {

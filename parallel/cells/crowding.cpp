@@ -12,10 +12,10 @@ namespace carom {
 namespace {
 
 constexpr std::size_t most_samples = 16384;
-// Samples a cell at first, if they were spread evenly over the box.
+// Samples in a cell at first, if they were spread evenly over the box.
 constexpr double spread_samples = 16.0;
-// Cells are made smaller until a sample shares its cell with no more others than this on average: then what is denser
-// than its surroundings is larger than a cell.
+// Cells are made smaller until a sample shares its cell with no more than this number of others on average: then cells
+// are smaller than dense regions.
 constexpr double most_samples_a_cell = 40.0;
 constexpr double refinement = 4.0;
 constexpr double most_cells = 0x1p50;
@@ -23,7 +23,7 @@ constexpr double most_cells_of_side = 0x1p31;
 // Below this, the result is 1.
 constexpr double least_crowding = 1.5;
 
-// How many samples are in the cell of a sample, averaged over the samples. key: the cell of each; may be sorted.
+// The number of samples in the cell of a sample, averaged over the samples. key: the cell of each; gets sorted.
 double mean_occupancy(std::vector<std::uint64_t>& key, double cells) {
   double squares = 0.0;
   const auto add = [&](double samples) { squares += samples * samples; };
@@ -50,7 +50,7 @@ double crowding(const Disks& d, const Domain& box, std::size_t disks_of_box) {
   const double samples_of_box = static_cast<double>(std::max(d.size(), disks_of_box)) / static_cast<double>(step);
   std::vector<std::uint64_t> key((d.size() + step - 1) / step);
   for (double wanted = samples_of_box / spread_samples;; wanted *= refinement) {
-    // Nearly square ones, as far as their number allows.
+    // Nearly square cells, as far as their number allows.
     const double most_columns = std::clamp(wanted, 1.0, most_cells_of_side);
     const double columns = std::floor(std::clamp(std::sqrt(wanted * box.width / box.height), 1.0, most_columns));
     const double rows = std::floor(std::clamp(wanted / columns, 1.0, most_cells_of_side));

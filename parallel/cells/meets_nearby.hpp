@@ -1,4 +1,4 @@
-// Does a newcomer find room among disks that are sorted into cells?
+// Tests whether a new disk has room among disks that are sorted into cells.
 #pragma once
 
 #include "core/step/source.hpp"

@@ -1,5 +1,5 @@
-// The runs of disks in storage that lie within reach of a place: one for each row of cells, or two where the cells go
-// on at the other end of the row.
+// The contiguous runs of disks within reach of a place: one for each row of cells, or two if the cells continue at the
+// other end of the row.
 #pragma once
 
 #include <algorithm>
@@ -10,19 +10,19 @@
 
 namespace carom {
 
-// Consecutive cells along one side; along a period they go on at its other end.
+// Consecutive cells along one side; along a period they continue at its other end.
 struct Span {
   std::uint32_t first = 0, count = 0;
 };
 
-// More than rounding changes a distance by, over the side of the box.
+// A bound on the rounding of a distance, over the side of the box.
 inline constexpr double span_rounding = 1e-12;
 
-// The cells of all disks whose coordinate was within reach of c when they were sorted. One that was exactly as far as
-// that is found whatever rounding does: in a lattice of disks that touch and move together, many are.
+// The cells of all disks whose coordinate was within reach of c when they were sorted, in spite of rounding also of
+// those that were exactly as far: in a lattice of touching disks that move together, many are.
 inline Span span_around(double c, double reach, double length, double per_length, std::uint32_t cells, bool periodic) {
   reach += span_rounding * length;
-  // Where the two ends come within a cell of each other along the period, the whole side is taken once.
+  // If the two ends come within a cell of each other along the period, the whole side is taken once.
   if (cells == 1 || (2.0 * reach) * per_length + 2.0 >= cells) return {0, cells};
   double low = c - reach;
   double high = c + reach;
@@ -39,7 +39,7 @@ void for_each_run_near(const GridLevel& level, const std::uint32_t* start, const
                        double reach, Visit&& visit) {
   const Span rows = span_around(y, reach, box.height, level.rows_per_length, level.rows, box.periodic_y());
   Span columns = span_around(x, reach, box.width, level.columns_per_length, level.columns, box.periodic_x());
-  // Across the bottom or the top of a sheared box disks of any column may be near; as far as span_around looks.
+  // Across the bottom or the top of a sheared box, neighbours may be in any column; the same margin as in span_around.
   const double seen = reach + span_rounding * box.height;
   if (box.shear.acts() && (y < seen || y >= box.height - seen || rows.count == level.rows)) [[unlikely]]
     columns = {0, level.columns};

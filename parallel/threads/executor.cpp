@@ -20,8 +20,8 @@ namespace carom {
 namespace {
 
 // The thread sanitizer cannot see that blocks begin after run() was called and end before it returns: Debian's oneTBB
-// is built without it, and so is this file (cmake/Sanitizers.cmake). So it is told, and of nothing else: blocks of one
-// run stay unordered among themselves.
+// is built without it, and so is this file (cmake/Sanitizers.cmake). These two relations are therefore announced to it,
+// and no others: blocks of one run stay unordered among themselves.
 #ifdef CAROM_THREAD_SANITIZER
 struct ForkJoin {
   char fork = 0, join = 0;
@@ -41,10 +41,10 @@ struct ForkJoin {
 
 }  // namespace
 
-// Asking for more threads than cores must be possible (determinism is tested so), hence the limit beside the arena. It
-// holds for the whole process, and the least of all is what counts: executors that live at the same time have the same.
-// oneTBB comes near it where many executors follow each other on a busy machine: it starts a thread where one that is
-// still on its way to sleep would do, and ends none.
+// More threads than cores must be possible (determinism is tested that way), hence the limit in addition to the arena.
+// The limit holds for the whole process, and the smallest one is effective, so all executors set the same. oneTBB comes
+// near it when many executors follow each other on a busy machine: it may start a thread although another is just going
+// to sleep, and it ends none.
 struct Executor::Arena {
   static constexpr int most_threads = 128;
   explicit Arena(int threads) : arena(threads) {

@@ -1,5 +1,4 @@
-// Where threads live: runs numbered blocks of work on a fixed number of threads. The only file that knows the
-// scheduler.
+// Runs numbered blocks of work on a fixed number of threads. Only this file and its .cpp know the scheduler (oneTBB).
 #pragma once
 
 #include <oneapi/tbb/parallel_sort.h>
@@ -26,11 +25,12 @@ class Executor {
 
   int threads() const { return threads_; }
 
-  // The block size to use where `block` items are the usual one.
+  // The block size to use instead of the usual size `block`: divided by block_divisor.
   std::size_t grain(std::size_t block) const { return std::max<std::size_t>(1, block / divisor_); }
-  // The one for n items in all: a few large blocks are alike, and a power of two, for threads to share evenly.
+  // The block size for n items in all. A few large blocks get equal sizes, and their number is a power of two, so that
+  // threads can share them evenly.
   std::size_t block_size(std::size_t n, std::size_t block) const;
-  // How many blocks of that size n items make.
+  // The number of blocks of that size for n items.
   std::size_t blocks(std::size_t n, std::size_t block) const { return blocks_of(n, block_size(n, block)); }
 
   // task(b) for b = 0 .. blocks - 1. Allocates nothing of its own.
@@ -39,8 +39,8 @@ class Executor {
     run_blocks(blocks, task, Sharing::as_they_come);
   }
 
-  // Likewise, of blocks that take about as long as each other. Few are shared out alike in all runs: what a thread has
-  // written of a small system is in its own cache when its next run comes to it.
+  // The same for blocks that take about equal times. If they are few, each thread gets the same blocks in every run, so
+  // that its part of a small system stays in its own cache.
   template <class Task>
   void run_alike(std::size_t blocks, Task&& task) const {
     run_blocks(blocks, task, blocks <= most_alike ? Sharing::alike : Sharing::as_they_come);
@@ -58,7 +58,7 @@ class Executor {
   void sort(Iterator begin, Iterator end, Less less) const;
 
  private:
-  // With more of them, those that come first are worth more than those whose data are near.
+  // With more threads, it is better to give blocks to whichever thread is free first.
   static constexpr std::size_t most_alike = 4;
   static std::size_t blocks_of(std::size_t n, std::size_t size) { return (n + size - 1) / size; }
   using Call = void (*)(void*, std::size_t);
@@ -66,7 +66,7 @@ class Executor {
   template <class Task>
   void run_blocks(std::size_t blocks, Task& task, Sharing sharing) const;
   void share_out(std::size_t blocks, Sharing sharing, Call call, void* task) const;
-  void enter(Call call, void* task) const;  // calls it once, with all threads at hand
+  void enter(Call call, void* task) const;  // calls it once within the arena
 
   struct Arena;
   int threads_;
@@ -94,7 +94,7 @@ inline constexpr std::ptrdiff_t small_sort = 8192;
 
 template <class Iterator, class Less>
 void Executor::sort(Iterator begin, Iterator end, Less less) const {
-  // How TBB shares out a sort is its own affair, and nothing that the thread sanitizer can follow.
+  // The thread sanitizer cannot follow how TBB parallelises a sort.
   if (under_thread_sanitizer || threads_ == 1 || end - begin < small_sort) {
     std::sort(begin, end, less);
     return;
@@ -103,7 +103,7 @@ void Executor::sort(Iterator begin, Iterator end, Less less) const {
   enter([](void* t, std::size_t) { (*static_cast<decltype(task)*>(t))(); }, &task);
 }
 
-// Runs blocks on so many threads of its own, which live as long as it.
+// A runner with threads of its own, which live as long as it.
 BlockRunner blocks_on_threads(int threads);
 
 }  // namespace carom

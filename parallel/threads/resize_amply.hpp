@@ -1,4 +1,4 @@
-// Resizing lists whose length creeps up from step to step.
+// Resizes lists whose length grows slowly from step to step.
 #pragma once
 
 #include <cstddef>
@@ -6,8 +6,8 @@
 
 namespace carom {
 
-// v.resize(n), but with a quarter to spare where it must allocate: resize and assign ask for no more than n when the
-// list was short before, and would ask again in every step that has one contact more.
+// v.resize(n), but with a reserve of a quarter if it must allocate. resize and assign may allocate exactly n, and would
+// allocate again in every step that has one contact more.
 template <class T>
 void resize_amply(std::vector<T>& v, std::size_t n) {
   if (n > v.capacity()) v.reserve(n + n / 4);
