@@ -1,4 +1,4 @@
-// Eight coarse positions at once, in the instruction set of the file that reads this one.
+// Eight coarse positions at once, in the instruction set of the file that includes this one.
 
 #if defined(__SSE2__)
 #include <immintrin.h>

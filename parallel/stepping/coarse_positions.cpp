@@ -4,7 +4,7 @@ namespace carom {
 
 namespace {
 
-// Disks a block of the passes over all.
+// Disks in a block of the passes over all disks.
 constexpr std::size_t pass_block = 16384;
 
 // Each disk's radius in units of its level.

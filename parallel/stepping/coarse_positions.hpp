@@ -1,5 +1,5 @@
-// Positions of 32 bits a disk, which the contact search reads in place of the coordinates: eight disks are tested at
-// once, and only pairs that may touch are asked in double precision.
+// Positions of 32 bits for each disk, which the contact search reads instead of the coordinates: eight disks are tested
+// at once, and only pairs that may touch are then tested in double precision.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace carom {
 
-// Coarse positions that are read at once; so many more entries than disks may be read.
+// Coarse positions that are read at once; columns have so many entries more than disks, since those may be read.
 inline constexpr std::uint32_t coarse_lanes = 8;
 
 // Columns have an entry for each disk, by storage index, and coarse_lanes more. A coordinate is rounded to a whole
@@ -26,35 +26,35 @@ struct CoarsePositions {
   std::vector<std::uint32_t> radius;  // in units, rounded up; empty: all disks have the common one
   // Disks that have more than coarse_lanes others in one of their two runs (near_runs), ascending.
   std::vector<std::uint32_t> long_runs;
-  // Of each block of disks, the strays: those that have left their cell by more than the level's margin.
+  // For each block of disks, the strays: disks that have left their cell by more than the level's margin.
   std::vector<std::vector<std::uint32_t>> strays;
-  std::size_t blocks = 0;  // how many blocks have strays of the last drift
-  // Disks that a program added between two steps, and disks that took the place of one that it removed, ascending:
-  // their keys say nothing of where they are. Those stored behind all sorted disks are in no cell's run.
+  std::size_t blocks = 0;  // number of blocks in the last drift
+  // Loose disks, ascending: disks that a program has added between two steps, or that took the place of a removed one.
+  // Their keys do not belong to their positions. Those stored after all sorted disks are in no cell's run.
   std::vector<std::uint32_t> loose;
-  bool current = false;  // position and strays are of where the disks are now
+  bool current = false;  // position and strays belong to the present positions
   // Scratch.
   std::vector<double> speed2;
   std::vector<std::vector<std::uint32_t>> long_runs_of_block;
 };
 
-// The cell list of time stepping: the grid, which disks were sorted into each cell, and where the disks are now.
+// The cell list of time stepping: the grid, the disks sorted into each cell, and their present coarse positions.
 struct CellList {
   CellGrid grid;
   SortedCells sorted;
   CoarsePositions coarse;
 };
 
-// A unit of the level's coarse coordinates; length. The longer side of a cell is 4096 units, a sixteenth of what 16
-// bits hold: disks that are read beyond the cells of interest then do not seem near. In a dense fluid a diameter is
+// The unit of a level's coarse coordinates; length. The longer side of a cell is 4096 units, a sixteenth of the range
+// of 16 bits, so that disks that are read beyond the wanted cells do not seem near. In a dense fluid a diameter is
 // about 3400 units.
 inline double coarse_unit(const GridLevel& level) {
   return std::max(level.cell_width, level.cell_height) / 4096.0;
 }
 
-// The distance of two coarse positions is off by less than this, in units: each coordinate by at most one half, a
-// difference by one, and the distance by the square root of two. With unequal radii, which are whole numbers, the sum
-// gets the next whole number above that.
+// A bound on the error of the distance of two coarse positions, in units: each coordinate has an error of at most one
+// half, a difference of one, and the distance of the square root of two. With unequal radii, which are rounded up to
+// whole numbers, the next whole number is added to their sum.
 inline constexpr double coarse_error = 1.5;
 inline constexpr std::uint32_t coarse_radius_error = 2;
 
@@ -72,8 +72,8 @@ inline LevelRange range_of(const GridLevel& level, const SortedCells& cells) {
   return {cells.start[level.start_key()], cells.start[level.start_key() + level.keys()]};
 }
 
-// The runs of disks in storage that the search compares a disk with, away from periodic sides: what follows it in its
-// own cell and in the next one, and the disks of the three cells above.
+// The two runs of disks with which the search compares a disk, away from periodic sides: those after it in its own and
+// in the next cell, and those of the three cells above.
 struct NearRuns {
   std::uint32_t own, own_end, above, above_end;
 };
@@ -81,8 +81,8 @@ inline NearRuns near_runs(const std::uint32_t* start, std::uint32_t key, std::ui
   return {i + 1, start[key + 2], start[key + stride - 1], start[key + stride + 2]};
 }
 
-// Makes room in cells.coarse for all disks, with their radii, and finds those that have long runs. To be called once
-// the disks have been sorted into cells.
+// Prepares cells.coarse for all disks: radii, and the list of disks with long runs. To be called each time the disks
+// have been sorted into cells.
 void begin_coarse_positions(const Disks& disks, const Executor& executor, CellList& cells);
 
 }  // namespace carom

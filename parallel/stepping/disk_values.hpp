@@ -1,5 +1,5 @@
-// What the sweeps over a step's contacts change of a disk, by storage index. Ranks send each other these values and no
-// more.
+// The values of a disk that the sweeps over a step's contacts change, by storage index. Ranks exchange only these
+// values.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace carom {
 
-// In the sweeps over supports.
+// Changed by the sweeps over supports.
 struct Velocities {
   using Value = Vec2;
   Vec2* v;
@@ -18,7 +18,7 @@ struct Velocities {
   void set(std::size_t i, const Value& value) const { v[i] = value; }
 };
 
-// When disks are pushed apart.
+// Changed when disks are pushed apart.
 struct Places {
   using Value = Vec2;
   Disks& d;
@@ -30,7 +30,7 @@ struct Places {
   }
 };
 
-// In impacts.
+// Changed by impacts.
 struct Motions {
   struct Value {
     Vec2 place, velocity;

@@ -12,7 +12,7 @@ namespace carom {
 
 namespace {
 
-// Disks a block of the passes over all, and displaced ones a block of their search.
+// Disks in a block, both of the passes over all disks and of the search around displaced ones.
 constexpr std::size_t disk_block = 8192;
 constexpr std::size_t search_block = 64;
 

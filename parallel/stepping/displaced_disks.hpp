@@ -1,4 +1,5 @@
-// Whether resolving a step's contacts has pressed disks together that were not among them: core/step/step_rounds.hpp.
+// Finds whether resolving the contacts of a step has pressed together disks that had no contact
+// (core/step/step_rounds.hpp).
 #pragma once
 
 #include <cstdint>
@@ -11,7 +12,7 @@
 
 namespace carom {
 
-// Where the disks were before resolving, and lists that are filled again and again.
+// The positions before resolving, and reused lists.
 struct DisplacedDisks {
   std::vector<double> x, y;
   std::vector<std::vector<std::uint32_t>> blocks;  // displaced disks of each block
@@ -20,23 +21,22 @@ struct DisplacedDisks {
   std::vector<unsigned char> pressed;  // of each block of displaced disks
 };
 
-// Keeps the places that the disks have now.
+// Stores the present positions.
 void keep_places(const Disks& disks, const Executor& executor, DisplacedDisks& displaced);
 
-// Puts the disks that were displaced since keep_places into displaced.all. Returns how far the furthest one was;
-// length.
+// Fills displaced.all with the disks that were displaced since keep_places. Returns the largest displacement; length.
 double find_displaced(Disks& disks, const Domain& box, const Executor& executor, DisplacedDisks& displaced);
 
-// Is one of displaced.all pressed into another disk or into a wall? slack: how far a disk may be outside the cell that
-// it was sorted into; length.
+// Is one of displaced.all pressed into another disk or into a wall? slack: the largest distance of a disk from the cell
+// into which it was sorted; length.
 bool any_pressed(Disks& disks, const Domain& box, const CellList& cells, double slack, const Executor& executor,
                  DisplacedDisks& displaced);
 
 // The same of disk i alone, which need not be in any cell.
 bool is_pressed(Disks& disks, const Domain& box, const CellList& cells, double slack, std::size_t i);
 
-// Is a disk that was displaced since keep_places pressed into another one or into a wall? strayed: by how much a disk
-// had left its cell at most when the places were kept; length. The answer is the reference's.
+// Is a disk that was displaced since keep_places pressed into another one or into a wall? strayed: the largest distance
+// of a disk from its cell at keep_places; length. The result is that of the reference.
 bool presses_others(Disks& disks, const Domain& box, const CellList& cells, double strayed, const Executor& executor,
                     DisplacedDisks& displaced);
 

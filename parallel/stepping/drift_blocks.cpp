@@ -13,10 +13,10 @@ namespace carom {
 
 namespace {
 
-// Disks a block: four columns of it fit the second-level cache.
+// Disks in a block: four columns of it fit into the second-level cache.
 constexpr std::size_t drift_block = 8192;
 
-// All disks through the kernel, level by level. Returns the largest squared speed.
+// Runs the kernel on all disks, level by level. Returns the largest squared speed.
 double move_all(MoveInput in, std::size_t disks, const Executor& executor, CellList& cells) {
   CoarsePositions& coarse = cells.coarse;
   const MoveKernel kernel = choose_move_kernels().in_levels;
@@ -41,7 +41,7 @@ double move_all(MoveInput in, std::size_t disks, const Executor& executor, CellL
     });
     for (const double v2 : coarse.speed2) speed2 = std::max(speed2, v2);
   }
-  // Loose disks behind the last cell: each loose disk is searched for by itself, whether it strays or not.
+  // Loose disks stored after the last cell. Each loose disk is searched for by itself, whether it strays or not.
   const std::size_t sorted = cells.sorted.start.back();
   if (sorted < disks) [[unlikely]] {
     std::vector<std::uint32_t> unread;

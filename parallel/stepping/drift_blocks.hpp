@@ -1,4 +1,4 @@
-// Moving all disks, in blocks.
+// Moves all disks, in blocks.
 #pragma once
 
 #include "core/disks/disks.hpp"
@@ -17,10 +17,10 @@ namespace carom {
 double drift_blocks(Disks& disks, const Domain& box, const Gravity& gravity, double t, const Executor& executor,
                     CellList& cells);
 
-// Writes coarse positions and strays of disks that have been moved otherwise, and moves none. Same preconditions.
+// Only writes coarse positions and strays, after disks have been moved in another way. Same preconditions.
 void note_coarse_positions(Disks& disks, const Domain& box, const Executor& executor, CellList& cells);
 
-// The wall contacts of all disks, by blocks in order of storage, into found.walls. Nothing is done without walls.
+// Fills found.walls with the wall contacts of all disks, by blocks in order of storage. Does nothing without walls.
 void find_wall_contacts(Disks& disks, const StepRules& rules, const Executor& executor, FoundContacts& found);
 
 }  // namespace carom

@@ -11,11 +11,11 @@ namespace carom {
 
 namespace {
 
-// Disks a block of the search: small enough to spread over threads, large enough that a block's buffer is worth having.
+// Disks in a block of the search: small enough for several threads to share, large enough for the overhead of a buffer.
 constexpr std::size_t search_block = 8192;
-// Disks a block of the search between size classes: a large one may have thousands of small ones around it.
+// Disks in a block of the search between size classes: a large disk may have thousands of small ones around it.
 constexpr std::size_t cross_block = 64;
-// Strays a block.
+// Strays in a block.
 constexpr std::size_t stray_block = 256;
 
 template <bool sheared>
@@ -26,7 +26,7 @@ void test_run(const SearchInput& in, std::size_t i, std::uint32_t first, std::ui
   }
 }
 
-// How far disk i has left its cell along either side; length, negative inside.
+// The distance by which disk i has left its cell, the larger of both axes; length, negative inside.
 double excursion(const SearchInput& in, const GridLevel& level, std::size_t i) {
   const std::uint32_t row = (in.key[i] - level.first_key) / level.stride;
   const std::uint32_t column = (in.key[i] - level.first_key) % level.stride;
@@ -49,9 +49,9 @@ void search_above_top(const SearchInput& in, const GridLevel& level, std::size_t
   if (straight < span.count) test_run<true>(in, i, in.start[key], in.start[key + span.count - straight], pairs);
 }
 
-// Disks near periodic sides, with nearest images: against the cells to the right and in the row above, also where these
-// are at the other end of the box. Cells side by side are taken as one run (a row ends with an empty cell), as the end
-// of each run costs a branch that is hard to predict.
+// Searches disks near periodic sides, with nearest images, against the cells to the right and in the row above, which
+// may be at the other end of the box. Adjacent cells are taken as one run (a row ends with an empty cell), since the
+// end of each run costs a branch that is hard to predict.
 template <bool sheared>
 void search_border(const SearchInput& in, const GridLevel& level, std::uint32_t row, std::size_t begin, std::size_t end,
                    std::vector<Pair>& pairs) {
@@ -69,7 +69,7 @@ void search_border(const SearchInput& in, const GridLevel& level, std::uint32_t 
     const std::uint32_t column = in.key[i] - row_key;
     const std::uint32_t next = displaced_above && level.rows == 1 ? row_key + level.columns : in.key[i] + 2;
     test_run<sheared>(in, i, static_cast<std::uint32_t>(i + 1), in.start[next], pairs);
-    if (displaced_above && level.rows == 1) continue;  // that was all of them
+    if (displaced_above && level.rows == 1) continue;  // all disks have been tested
     if (across && column == last) test_cells(i, row_key, row_key);
     if (!has_above) continue;
     if (displaced_above) {
@@ -114,12 +114,12 @@ void search_level(const SearchInput& in, const GridLevel& level, InteriorKernel 
   }
 }
 
-// Makes `blocks` more buffers ready, emptied; returns the first of them.
+// Adds `blocks` empty buffers; returns the index of the first.
 std::size_t more_buffers(FoundContacts& found, std::size_t blocks) {
   const std::size_t first = found.used;
   found.used += blocks;
   while (found.buffers.size() < found.used) {
-    // Room for the contacts of a dense fluid, so that a later, busier step need not ask for more.
+    // Enough for the contacts of a dense fluid, so that later steps with more contacts need not allocate.
     found.buffers.emplace_back();
     found.buffers.back().reserve(search_block / 16);
   }
@@ -183,8 +183,8 @@ void search_loose(const SearchInput& in, const std::vector<std::uint32_t>& loose
   }
 }
 
-// What the search by rows has found of strays may be incomplete: those pairs are taken out, and each stray is searched
-// for by itself.
+// The pairs of strays found by the search by rows may be incomplete: they are removed, and each stray is searched for
+// by itself.
 template <bool sheared>
 void search_strays(const SearchInput& in, const CellList& cells, const Executor& executor, FoundContacts& found) {
   const CoarsePositions& coarse = cells.coarse;

@@ -21,14 +21,14 @@ struct FoundContacts {
   std::vector<std::vector<Pair>> buffers;  // the first `used` are of the last search
   std::size_t used = 0;
   std::vector<std::vector<ContactEvent>> walls;  // empty in a box without walls
-  double furthest = 0.0;                         // that a stray had left its cell by; length
-  // Scratch: of each block, the disks that may touch a wall or an obstacle.
+  double furthest = 0.0;                         // largest distance of a stray from its cell; length
+  // Scratch: for each block, the disks that may touch a wall or an obstacle.
   std::vector<std::vector<std::uint32_t>> near_walls;
   // Scratch of the strays' own search.
   std::vector<std::uint32_t> strays;
   std::vector<unsigned char> strayed;  // of each disk: 1 a stray, 2 a loose one; all 0 between searches
 
-  // offset: where the pairs of each buffer begin in a list of all of them. Returns how many pairs there are.
+  // offset: the index of each buffer's first pair in a list of all pairs. Returns the number of pairs.
   std::size_t find_offsets(std::vector<std::size_t>& offset) const {
     offset.clear();
     std::size_t sum = 0;
@@ -45,20 +45,20 @@ struct FoundContacts {
   }
 };
 
-// The pair with the smaller id first, as every formula wants it.
+// The pair with the smaller id first, as all formulas require.
 inline Pair in_id_order(const DiskId* id, Pair p) {
   return id[p.i1] < id[p.i2] ? p : Pair{p.i2, p.i1};
 }
 
 // Finds the pairs of disks that overlap or touch now; disks have moved since they were sorted into cells. The search by
 // rows of cells finds the pairs of all disks that are still within the margin of their cells. Every stray is searched
-// for by itself, as far as any stray has gone. So the result is complete however old the cells are; the search only
-// becomes slower. Returns the number of strays, loose disks (coarse_positions.hpp) among them. Precondition:
+// for by itself, with the largest distance of any stray as margin. So the result is complete for cells of any age; only
+// the search becomes slower. Returns the number of strays, loose disks (coarse_positions.hpp) among them. Precondition:
 // cells.coarse is current.
 std::size_t find_contacts(const Disks& disks, const Domain& box, const CellList& cells, const Executor& executor,
                           FoundContacts& found);
 
-// How far a disk has left its cell by at most, loose disks apart; length.
+// The largest distance of a disk from its cell, without loose disks; length.
 double furthest_excursion(const Disks& disks, const Domain& box, const CellList& cells);
 
 }  // namespace carom

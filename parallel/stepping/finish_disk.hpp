@@ -24,16 +24,15 @@ double speed2_of(const Columns& d, std::size_t i) {
   return d.vx[i] * d.vx[i] + d.vy[i] * d.vy[i];
 }
 
-// Wraps disk i, which contacts may have moved across a periodic side of a box that is not sheared. Returns its squared
-// speed.
+// Wraps disk i after its contacts, in a box that is not sheared. Returns its squared speed.
 template <class Columns>
 double wrap_moved(Columns& d, const Domain& box, std::size_t i) {
   wrap(d.x[i], d.y[i], box);
   return speed2_of(d, i);
 }
 
-// The same, and notes in `seen` how far the disk still reaches beyond a wall. In a sheared box the caller brings disks
-// back into it (move_sheared).
+// The same, and enters the overlap of the disk with walls in `seen`. In a sheared box the caller wraps disks
+// (move_sheared).
 template <class View>
 double finish_disk(const View& d, const Domain& box, const WallReach& walls, std::uint32_t i, StepFigures& seen) {
   if (walls.touches(d.x[i], d.y[i], d.radius(i))) raise_to_wall_overlap_apart(d, box, i, seen);

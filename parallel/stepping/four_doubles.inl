@@ -1,4 +1,4 @@
-// Four doubles at a time, in the compilers' own vector types: on a machine without them the compiler splits them.
+// Four doubles at a time, in vector types of the compiler, which splits them on machines without such registers.
 // Included by kernels that are compiled once for every instruction set.
 #pragma once
 
@@ -32,8 +32,8 @@ inline Doubles all(double a) {
   return Doubles{a, a, a, a};
 }
 
-// The built-in cast in place of std::bit_cast: without optimisation that is a function of its own, which the versions
-// for several instruction sets, with their ways to pass a vector, would share.
+// A built-in cast, not std::bit_cast: without optimisation that is a function, and the linker would share it between
+// versions for different instruction sets, which pass vectors in different ways.
 inline Longs as_longs(Doubles v) {
   return __builtin_bit_cast(Longs, v);
 }

@@ -11,9 +11,9 @@ namespace carom {
 
 namespace {
 
-// Pairs a bucket of first ids has about: few enough to be sorted in the first-level cache.
+// About so many pairs in a bucket of first ids: few enough to be sorted in the first-level cache.
 constexpr std::size_t bucket_pairs = 32;
-// Parts of the list that are scattered side by side; each has a histogram of its own.
+// Parts of the list that are scattered in parallel; each has its own histogram.
 constexpr std::size_t slices = 16;
 // Buckets that are sorted in one piece of work.
 constexpr std::size_t bucket_block = 64;

@@ -10,7 +10,7 @@
 
 namespace carom {
 
-// A contact with the ids of its disks: all that the sweeps need to know of it.
+// A contact with the ids of its disks: all that the sweeps need.
 struct IdPair {
   std::uint64_t key;     // id1 << 32 | id2: keys are in order of (id1, id2)
   std::uint32_t i1, i2;  // where the disks are stored; twice the same for a wall
@@ -24,7 +24,7 @@ inline constexpr std::uint64_t id_key(DiskId id1, DiskId id2) {
   return std::uint64_t{id1} << 32 | id2;
 }
 
-// The event as the search found it, with its time. Precondition: the disks have not moved since.
+// The contact event of a pair, with its time. Precondition: the disks have not moved since the search.
 template <class View>
 ContactEvent timed_event(const View& d, const StepRules& rules, const IdPair& p) {
   if (!is_wall(p.id2())) return pair_event(d, rules, p.i1, p.i2);
@@ -41,7 +41,7 @@ struct IdOrder {
   std::vector<std::uint32_t> counts;
 };
 
-// Sorts pairs.found into pairs.sorted. ids: more than any first id; if it is not, the sort is only slower.
+// Sorts pairs.found into pairs.sorted. ids: a number above all first ids; a smaller one only makes the sort slower.
 void sort_by_ids(IdOrder& pairs, DiskId ids, const Executor& executor);
 
 }  // namespace carom

@@ -7,10 +7,11 @@ namespace carom {
 
 namespace {
 
-// Disks a block.
+// Disks in a block.
 constexpr std::size_t mark_block = 8192;
 
-// sink_of(view, i): the sink that takes disk i. Blocks' counts are whole numbers below 2^53: their sum is exact.
+// sink_of(view, i): the sink that takes disk i, or no_sink. The counts of blocks are whole numbers below 2^53, so their
+// sum is exact.
 template <class SinkOf>
 Count mark(Disks& disks, const Executor& executor, std::vector<unsigned char>& gone, SinkCounts& taken,
            std::vector<double>& scratch, SinkOf&& sink_of) {

@@ -1,4 +1,4 @@
-// Which disks sinks take, on threads.
+// Marks the disks that sinks take, in parallel.
 #pragma once
 
 #include <vector>
@@ -10,12 +10,12 @@
 
 namespace carom {
 
-// gone[i] becomes 1 for each disk i that touches a sink, else 0. Returns how many do, which `taken` counts by sink.
-// scratch: any.
+// Sets gone[i] to 1 for each disk i that touches a sink, else to 0. Returns their number, and adds it to `taken` by
+// sink. scratch: any vector.
 Count mark_at_sinks(Disks& disks, const Domain& box, const Executor& executor, std::vector<unsigned char>& gone,
                     SinkCounts& taken, std::vector<double>& scratch);
 
-// Likewise those that cross a sink within Brownian step number `step`, of length dt, unseen at its end.
+// The same for disks that cross a sink within Brownian step number `step`, of length dt, but lie inside at its end.
 Count mark_crossing(Disks& disks, const Scene& scene, double dt, Count step, const Executor& executor,
                     std::vector<unsigned char>& gone, SinkCounts& taken, std::vector<double>& scratch);
 

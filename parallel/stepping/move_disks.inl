@@ -15,7 +15,7 @@ namespace {
 
 using Words = std::int32_t __attribute__((vector_size(32)));
 
-// Added to a number and taken away again: rounds it to the nearest whole one, which meanwhile is in the lowest bits.
+// Adding this to a number rounds it to the nearest whole number, which is then in the lowest bits.
 constexpr double rounding = 0x1.8p52;
 
 inline Doubles magnitude(Doubles v) {
@@ -33,17 +33,17 @@ inline Doubles load_keys(const std::uint32_t* p) {
 #endif
 }
 
-// What the cells and the coarse positions of a level look like from its disks.
+// The geometry of a level's cells and coarse positions, for the kernels.
 struct LevelView {
   double per_unit;  // coarse units per length
   double columns_per_length, rows_per_length;
   double far_x, far_y;  // a disk further than this from its cell's centre, in cells, is a stray
   double columns, rows;
   double first_key, stride, per_stride;
-  bool corner_x, corner_y;  // may a disk be at the other end of the box than its cell?
+  bool corner_x, corner_y;  // may a disk be at the opposite end of the box from its cell?
 };
 
-// In a sheared box a disk that has crossed the bottom or the top is displaced along x as well: it is a stray.
+// In a sheared box a disk that has crossed the bottom or the top is displaced along x as well, and so is a stray.
 LevelView view_of(const GridLevel& level, const Domain& box) {
   return {1.0 / coarse_unit(level),
           level.columns_per_length,
@@ -66,7 +66,7 @@ inline Number row_of(Number key, Number per_stride, Number half, Number rounder)
   return ((key + half) * per_stride - half + rounder) - rounder;
 }
 
-// Along a period the cell may be at the other end of the box.
+// Along a period the cell may be at the opposite end of the box.
 inline bool is_far(double off, double far, double across, bool periodic) {
   const double distance = std::abs(off);
   return (periodic ? std::min(distance, across - distance) : distance) > far;
@@ -101,7 +101,7 @@ template <bool periodic_x, bool periodic_y>
   for (std::size_t k = i; k < i + lanes; ++k) finish_one<periodic_x, periodic_y>(in, v, k, strays);
 }
 
-// The last few, one by one. Returns their largest squared speed.
+// The remaining disks, one by one. Returns their largest squared speed.
 template <Motion motion, bool periodic_x, bool periodic_y>
 double move_rest(MoveInput in, const GridLevel& level, std::size_t begin, std::size_t end,
                  std::vector<std::uint32_t>& strays) {

@@ -1,5 +1,5 @@
-// The kernels that move disks, and write the coarse positions that the contact search reads, in the versions that this
-// machine may have.
+// The kernels that move disks and write the coarse positions for the contact search, in versions for several
+// instruction sets.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace carom {
 
-// A parabola has its axis along y, a tilted one any.
+// parabola: gravity along y; tilted_parabola: in any direction.
 enum class Motion { none, straight, parabola, tilted_parabola };
 
 struct MoveInput {
@@ -20,7 +20,7 @@ struct MoveInput {
   double* y;
   double* vx;
   double* vy;
-  const std::uint32_t* key;  // cell that the disk was sorted into
+  const std::uint32_t* key;  // the cell into which the disk was sorted
   std::uint32_t* position;   // coarse (coarse_positions.hpp)
   Domain box;
   Motion motion;
@@ -29,14 +29,13 @@ struct MoveInput {
 };
 
 // Moves disks [begin, end) of a level as drift and wrap do (core/physics/advance.hpp), with the same operations; writes
-// their coarse positions, and appends those that are further outside their cell than the margin. Returns their largest
-// squared speed; where they do not move, a number that says nothing.
+// their coarse positions, and appends those that are further outside their cell than the margin to `strays`. Returns
+// their largest squared speed; meaningless with Motion::none.
 using MoveKernel = double (*)(const MoveInput& in, const GridLevel& level, std::size_t begin, std::size_t end,
                               std::vector<std::uint32_t>& strays);
 
-// Moves disks [begin, end) of a sheared box likewise, by in.t, but leaves those in `crossed` that are out of the box
-// now, wherever they are; is appended to. Returns the largest squared speed of the others. Reads neither cells nor
-// gravity.
+// Moves disks [begin, end) of a sheared box by in.t, and appends those that are now outside the box to `crossed`,
+// without wrapping them. Returns the largest squared speed of the others. Uses neither cells nor gravity.
 using ShearedMoveKernel = double (*)(const MoveInput& in, std::size_t begin, std::size_t end,
                                      std::vector<std::uint32_t>& crossed);
 
@@ -54,7 +53,7 @@ struct MoveKernels {
   ShearedMoveKernel sheared;
 };
 
-// The best versions for the processor at hand; all give the same bits.
+// The best versions for this processor; all give the same bits.
 MoveKernels choose_move_kernels();
 
 }  // namespace carom

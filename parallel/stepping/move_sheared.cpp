@@ -12,7 +12,7 @@ namespace carom {
 
 namespace {
 
-// Disks a block: each is looked at once.
+// Disks in a block of a single pass.
 constexpr std::size_t sheared_block = 8192;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Moving all disks of a sheared box, in blocks.
+// Moves all disks of a sheared box, in blocks.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,14 @@
 
 namespace carom {
 
-// Scratch, one a block: its largest squared speed, and those of its disks that have crossed a side.
+// Scratch for each block: its largest squared speed, and its disks that have crossed a side.
 struct ShearedBlocks {
   std::vector<double> speed2;
   std::vector<std::vector<std::uint32_t>> crossed;
 };
 
-// Drifts every disk by t, and brings those that have crossed a side back into the box; with t = 0 those that contacts
-// have moved. Adds the work of the shear to the tally. Returns the largest squared speed.
+// Drifts every disk by t, and wraps those that have crossed a side. (t = 0 only wraps, for disks that contacts have
+// moved.) Adds the work of the shear to the tally. Returns the largest squared speed.
 double move_sheared(Disks& disks, const Domain& box, double t, const Executor& executor, ImpactTally& tally,
                     ShearedBlocks& blocks);
 

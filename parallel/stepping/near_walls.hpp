@@ -1,4 +1,4 @@
-// The kernel that finds the disks at walls and obstacles, in the versions that this machine may have.
+// The kernel that finds the disks near walls and obstacles, in versions for several instruction sets.
 #pragma once
 
 #include <array>
@@ -15,19 +15,19 @@
 namespace carom {
 
 struct NearWallsInput {
-  const double* x;  // one entry a disk, as y and radius
+  const double* x;  // one entry for each disk; so have y and radius
   const double* y;
-  const double* radius;  // null where all have the common one
+  const double* radius;  // null if all disks have the common radius
   double common_radius;
   double width, height;         // of the box
-  std::array<double, 4> least;  // as WallReach::least()
-  // Of the obstacles: so many maps of how far they are, and whether what they show may have moved.
+  std::array<double, 4> least;  // WallReach::least()
+  // The clearance maps of the obstacles, their number, and whether their obstacles may have moved.
   std::array<Clearance::Cells, ObstacleCells::most_clearances> obstacles;
   std::size_t maps = 0;
   bool moving = false;
 };
 
-// Of these disks in this box.
+// The input for these disks in this box.
 inline NearWallsInput near_walls_input(const Disks& disks, const Domain& box) {
   NearWallsInput in{};
   in.x = disks.x.data();
@@ -44,7 +44,7 @@ inline NearWallsInput near_walls_input(const Disks& disks, const Domain& box) {
   return in;
 }
 
-// Appends those of disks [begin, end) for which WallReach::touches is true, in their order.
+// Appends those of disks [begin, end) for which WallReach::touches is true, in order.
 using NearWallsKernel = void (*)(const NearWallsInput& in, std::size_t begin, std::size_t end,
                                  std::vector<std::uint32_t>& near);
 
@@ -52,7 +52,7 @@ void near_walls_baseline(const NearWallsInput& in, std::size_t begin, std::size_
                          std::vector<std::uint32_t>& near);
 void near_walls_avx2(const NearWallsInput& in, std::size_t begin, std::size_t end, std::vector<std::uint32_t>& near);
 
-// The best version for the processor at hand; all find the same disks.
+// The best version for this processor; all find the same disks.
 NearWallsKernel choose_near_walls_kernel();
 
 }  // namespace carom

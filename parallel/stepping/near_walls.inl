@@ -1,4 +1,4 @@
-// The kernel that finds the disks at walls and obstacles, compiled once for every instruction set; CAROM_NEAR_WALLS
+// The kernel that finds the disks near walls and obstacles, compiled once for every instruction set; CAROM_NEAR_WALLS
 // names the version.
 
 #include "parallel/stepping/four_doubles.inl"
@@ -19,7 +19,7 @@ inline FourWords cell_of(Doubles place, double shift, double period, double cell
     place -= all(shift);
     place += __builtin_bit_cast(Doubles, (place < all(0.0)) & as_longs(all(period)));
   }
-  // Places beyond the sides look at some cell, for nothing.
+  // A place beyond the sides reads an arbitrary cell; its result is not used.
   const Doubles cell = place * all(cells_per_length);
   const Doubles first = all(0.0);
   return __builtin_convertvector(least_of(cell > first ? cell : first, all(cells - 1.0)), FourWords);

@@ -10,15 +10,16 @@ namespace carom {
 
 namespace {
 
-// Contacts a patch: their records and disks fit into a core's own cache. Smaller ones have more edge.
+// Contacts in a patch: their records and disks fit into a core's own cache. Smaller patches have more contacts on
+// edges.
 constexpr std::size_t patch_contacts = 4096;
-// Disks a block in passes over all of them.
+// Disks in a block of passes over all disks.
 constexpr std::size_t disk_block = 8192;
-// How far each layout is shifted against the first, in quarters of a patch along both sides. So no place is on an edge
-// of all three layouts, and where edges of two of them cross there is no edge of the third.
+// The shift of each layout against the first, in quarters of a patch along both axes. So no place is on an edge of all
+// three layouts, and where edges of two of them cross there is no edge of the third.
 constexpr std::array<std::uint32_t, patch_layouts> shift_quarters{0, 2, 1};
 
-// A grid of patches from the corner (x, y); columns_per_length and rows_per_length count quarters of patches.
+// A grid of patches with corner (x, y); columns_per_length and rows_per_length count quarters of patches.
 struct Layout {
   double x, y;
   double columns_per_length, rows_per_length;
@@ -45,7 +46,7 @@ std::array<double, 4> bounds_of(Patches& patches, const Disks& d, const std::vec
   return all;
 }
 
-// About so many patches, about as wide as high.
+// About `wanted` patches, nearly square.
 Layout layout_for(const std::array<double, 4>& bounds, std::size_t wanted) {
   const double width = std::max(bounds[1] - bounds[0], 1e-300);
   const double height = std::max(bounds[3] - bounds[2], 1e-300);
@@ -60,8 +61,8 @@ Layout layout_for(const std::array<double, 4>& bounds, std::size_t wanted) {
           static_cast<std::uint32_t>(rows)};
 }
 
-// A shifted patch that begins in the last quarters goes on at the other end: right along a period, and no harm
-// elsewhere.
+// A shifted patch that begins in the last quarters continues at the other end: as it should along a period, and
+// harmless elsewhere.
 std::uint32_t patch_of(std::uint32_t quarter, std::uint32_t shift, std::uint32_t patches) {
   const std::uint32_t p = (quarter + shift) / 4;
   return p < patches ? p : 0;
@@ -106,7 +107,7 @@ void order_by_patch(Patches& patches) {
   for (const std::uint32_t p : patches.patch) ++patches.start[p + 1];
   for (std::size_t p = 0; p < count; ++p) patches.start[p + 1] += patches.start[p];
   resize_amply(patches.order, patches.patch.size());
-  // start serves as the running place; each entry then is its successor's, and moves one back.
+  // start is used as the running place; each entry then has its successor's value, and all are moved back by one.
   for (std::size_t k = 0; k < patches.patch.size(); ++k) {
     patches.order[patches.start[patches.patch[k]]++] = static_cast<std::uint32_t>(k);
   }

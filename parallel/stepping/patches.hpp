@@ -1,8 +1,9 @@
-// Running a list of contacts in order, on many threads, with the bits of the serial order. Contacts that share no disk
-// commute exactly, so each contact only has to wait for the earlier ones of its own disks. The box is laid out in
-// patches; a contact inside a patch whose disks have had no contact across an edge before runs with its patch, patches
-// run side by side, and each visits a few thousand disks that are near in memory. What is left lies along the edges and
-// goes the same way in patches laid out anew across them, and again; the few that are left then run serially.
+// Runs a list of contacts on many threads with the bits of the serial order. Contacts that share no disk commute
+// exactly, so each contact only has to wait for the earlier ones of its own disks. The box is divided into patches. A
+// contact inside a patch, whose disks have had no earlier contact across an edge, runs with its patch; patches run in
+// parallel, and each visits a few thousand disks that are near in memory. The contacts along edges are treated in the
+// same way in a second layout of patches, shifted across those edges, and then in a third one; the few that are left
+// run serially.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +19,7 @@
 
 namespace carom {
 
-// Layouts of patches tried one after another; a contact that fits none of them is left to the last phase.
+// The number of layouts; a contact that fits none of them is left to the last phase.
 inline constexpr std::uint32_t patch_layouts = 3;
 inline constexpr std::uint32_t patch_phases = patch_layouts + 1;
 
@@ -28,7 +29,7 @@ struct Patches {
   std::vector<std::uint32_t> first;  // patch of each phase; phases + 1
   // Scratch.
   std::vector<std::array<std::uint16_t, patch_layouts>> home;  // patch of each disk in each layout
-  std::vector<unsigned char> reached;                          // by each disk: the phase of its latest contact
+  std::vector<unsigned char> reached;                          // for each disk: the phase of its latest contact
   std::vector<std::uint32_t> patch;                            // of each contact
   std::vector<std::array<double, 4>> bounds;                   // of blocks of disks
 
@@ -36,18 +37,19 @@ struct Patches {
   std::uint32_t phases() const { return static_cast<std::uint32_t>(first.size()) - 1; }
 };
 
-// contacts: how many of them there are. in_contact[i]: 0 for a disk that is in none. Returns whether there is more than
-// one patch to a layout; if not, all are in the one of the last phase. Patches do not depend on the number of threads.
+// contacts: their number. in_contact[i]: 0 for a disk without contacts. Returns whether a layout has more than one
+// patch; if not, all contacts belong to the single patch of the last phase. Patches do not depend on the number of
+// threads.
 bool lay_out(Patches& patches, const Disks& disks, const std::vector<std::uint16_t>& in_contact, std::size_t contacts,
              const Executor& executor);
 
 // Sorts patch indices in patches.patch into order and start.
 void order_by_patch(Patches& patches);
 
-// All contacts in one patch, in the order of the list; patches.order is not made.
+// Puts all contacts into one patch, in the order of the list; patches.order is not made.
 void take_as_one_patch(Patches& patches, std::size_t contacts);
 
-// disks_of(k): where the disks of contact k are stored, twice the same for a wall.
+// disks_of(k): the storage indices of the disks of contact k, twice the same for a wall.
 template <class DisksOf>
 void build_patches(Patches& patches, const Disks& disks, const std::vector<std::uint16_t>& in_contact,
                    std::size_t contacts, const Executor& executor, DisksOf&& disks_of) {
@@ -69,9 +71,9 @@ void build_patches(Patches& patches, const Disks& disks, const std::vector<std::
   order_by_patch(patches);
 }
 
-// task(patch) for every patch, so that, if a task runs its patch's contacts in order, the bits are those of running the
-// whole list in order; backwards, with tasks that run theirs backwards, those of the whole list backwards.
-// before(phase, backwards) is called before each phase.
+// Calls task(patch) for every patch. If tasks run the contacts of their patch in order, the bits are those of running
+// the whole list in order; with `backwards` and tasks that run theirs backwards, those of running the whole list
+// backwards. before(phase, backwards) is called before each phase.
 template <class Task, class Before>
 void run_patches(const Patches& patches, bool backwards, const Executor& executor, Task&& task, Before&& before) {
   const std::uint32_t phases = patches.phases();

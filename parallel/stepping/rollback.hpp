@@ -8,7 +8,7 @@
 
 namespace carom {
 
-// Bits of make_reference_rollback. Preconditions: scene.run.dt > 0, threads.count >= 1.
+// The same bits as make_reference_rollback. Preconditions: scene.run.dt > 0, threads.count >= 1.
 std::unique_ptr<Engine> make_parallel_rollback(const Scene& scene, State initial, const Threads& threads);
 
 }  // namespace carom
