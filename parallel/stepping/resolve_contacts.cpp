@@ -38,7 +38,7 @@ void prefetch_disk(const View& d, std::uint32_t i) {
 // Counts the contacts of each disk, in lists.contacts.
 void count_found(const FoundContacts& found, std::size_t disks, const Executor& executor, ContactLists& lists) {
   lists.contacts.resize(disks, 0);
-  // On one thread without atomic operations, each of which waits for all before it.
+  // On one thread without atomic operations, each of which would wait for all stores before it.
   const bool shared = executor.threads() > 1;
   executor.run_alike(found.used, [&](std::size_t b) {
     const std::vector<Pair>& pairs = found.buffers[b];
@@ -57,7 +57,7 @@ void count_found(const FoundContacts& found, std::size_t disks, const Executor& 
   });
 }
 
-// Lists for so many blocks, emptied.
+// Prepares empty lists for this number of blocks.
 void begin_blocks(std::size_t blocks, ContactLists& lists) {
   while (lists.crowded_blocks.size() < blocks) {
     lists.crowded_blocks.emplace_back();
@@ -70,8 +70,8 @@ void begin_blocks(std::size_t blocks, ContactLists& lists) {
   assign_amply(lists.seen, blocks, {});
 }
 
-// Resolves the pairs that block b of the search found and that are alone; the others become events. All that it calls
-// is inlined: calls were a third of its instructions.
+// Resolves those pairs of block b of the search that are alone; the others become events. All called functions are
+// inlined: calls were a third of its instructions.
 template <class View>
 [[gnu::flatten]] void resolve_alone_pairs(const View& d, const StepRules& rules, const WallReach& walls,
                                           const std::vector<Pair>& pairs, std::size_t b, ContactLists& lists) {
@@ -112,8 +112,9 @@ void resolve_alone_walls(const View& d, const StepRules& rules, const WallReach&
   }
 }
 
-// Contacts that are alone, each from impact to pushing and wrapping in one visit; they commute with all others, so the
-// blocks may run in any order. The others become events in lists.crowded, in canonical order of time.
+// Resolves the contacts that are alone, each from impact to pushing and wrapping in one visit; they commute with all
+// others, so the blocks may run in any order. The other contacts become events in lists.crowded, in canonical order of
+// time.
 template <class View>
 double resolve_alone(const View& d, const StepRules& rules, const FoundContacts& found, std::size_t disks,
                      const Executor& executor, ContactLists& lists, ImpactTally& tally) {
@@ -131,13 +132,13 @@ double resolve_alone(const View& d, const StepRules& rules, const FoundContacts&
   return blocks == 0 ? 0.0 : *std::max_element(lists.largest.begin(), lists.largest.end());
 }
 
-// finish(i, block) for each disk i of these events, once, and clears its count. Returns the largest result.
+// Calls finish(i, block) once for each disk i of these events, and clears its count. Returns the largest result.
 template <class Finish>
 double finish_each(const std::vector<ContactEvent>& events, const Executor& executor, ContactLists& lists,
                    Finish&& finish) {
   lists.largest.assign(executor.blocks(events.size(), contact_block), 0.0);
   executor.for_ranges(events.size(), contact_block, [&](std::size_t b, std::size_t begin, std::size_t end) {
-    // The thread that takes the count away finishes the disk; which one it is does not change the result.
+    // The thread that clears the count finishes the disk; which thread that is does not change the result.
     const auto finish_once = [&](std::uint32_t i) {
       if (std::atomic_ref<std::uint16_t>(lists.contacts[i]).exchange(0, std::memory_order_relaxed) == 0) return;
       lists.largest[b] = std::max(lists.largest[b], finish(i, b));

@@ -1,6 +1,6 @@
-// What core/reference/step_contacts.cpp does with the contacts of a step, with the same bits, on many threads. Most
-// contacts of a gas are alone: neither disk has another one. They commute with everything and are resolved where they
-// stand. The rest, the crowded ones, go in the canonical order, patch by patch where there are many.
+// Resolves the contacts of a step on many threads, with the bits of core/reference/step_contacts.cpp. Most contacts of
+// a gas are alone: neither disk has another one. They commute with all others and are resolved in place. The others,
+// the crowded ones, are resolved in canonical order, by patches if there are many.
 #pragma once
 
 #include <cstdint>
@@ -20,13 +20,13 @@
 
 namespace carom {
 
-// Lists that the resolve fills again and again; kept so that a warm step allocates nothing.
+// Lists that are filled in each step; kept, so that a warm step allocates nothing.
 struct ContactLists {
-  std::vector<ContactEvent> events;     // all of the step, in storage order
-  std::vector<std::uint16_t> contacts;  // of each disk in this step (contact_count.hpp); all 0 between steps
+  std::vector<ContactEvent> events;     // all events of the step, in storage order
+  std::vector<std::uint16_t> contacts;  // of each disk (contact_count.hpp); all 0 between steps
   std::vector<ContactEvent> crowded;
   std::vector<std::vector<ContactEvent>> crowded_blocks;
-  // The crowded ones in the order of the patches; empty: they are in that order as they are.
+  // The crowded events in the order of the patches. Empty if lists.crowded has that order already.
   std::vector<ContactEvent> placed;
   std::vector<ImpactTally> tallies;  // of each block
   std::vector<double> largest;       // of each block
@@ -37,18 +37,18 @@ struct ContactLists {
   StepFigures figures;            // of the last resolve
 };
 
-// The events of the pairs found and the wall contacts, in one list, and how many contacts each disk has.
+// Collects the events of the pairs found and of the wall contacts in one list, and counts the contacts of each disk.
 void gather_events(Disks& disks, const StepRules& rules, const FoundContacts& found, const Executor& executor,
                    ContactLists& lists);
 
 // Resolves and pushes apart all pairs found and wall contacts, wraps the disks that had contacts, and returns the
-// largest squared speed among those. Bits of resolve_serially (core/reference/step_contacts.hpp).
+// largest squared speed among those. The bits are those of resolve_serially (core/reference/step_contacts.hpp).
 double resolve_contacts(State& state, const StepRules& rules, const FoundContacts& found, const Executor& executor,
                         ContactLists& lists);
 
-// Its first and its last part by themselves, for scenes in which nothing settles; resolve_crowded.hpp has the part
-// between them. The first resolves the contacts that are alone, and leaves the others in lists.crowded, in canonical
-// order of time. Both return the largest squared speed of the disks that they have finished.
+// The first part of resolve_contacts, for scenes in which nothing settles: resolves the contacts that are alone, and
+// leaves the others in lists.crowded, in canonical order of time. resolve_crowded.hpp has the second part,
+// finish_contacts is the last. Returns the largest squared speed of the disks that it has finished.
 double resolve_alone_contacts(Disks& disks, const StepRules& rules, const FoundContacts& found,
                               const Executor& executor, ContactLists& lists, ImpactTally& tally);
 double finish_crowded_contacts(Disks& disks, const StepRules& rules, const Executor& executor, ContactLists& lists);
@@ -74,33 +74,34 @@ inline bool is_alone(const ContactLists& lists, const ContactEvent& e) {
   return lists.contacts[e.i1] == 1 && (is_wall(e.id2) || lists.contacts[e.i2] == 1);
 }
 
-// Takes the events that are not alone out into lists.crowded, in canonical order of time, and runs alone(event, tally)
-// on the others, in parallel. Adds the tallies to `tally`.
+// Moves the events that are not alone to lists.crowded, in canonical order of time, and calls alone(event, tally) for
+// the others, in parallel. Adds the tallies to `tally`.
 template <class Alone>
 void split_crowded(const Executor& executor, ContactLists& lists, ImpactTally& tally, Alone&& alone);
 
 // Joins the blocks' crowded events in lists.crowded, in canonical order of time, and adds their tallies.
 void collect_crowded(std::size_t blocks, const Executor& executor, ContactLists& lists, ImpactTally& tally);
 
-// Joins the blocks' crowded events in lists.crowded, as they come.
+// Joins the blocks' crowded events in lists.crowded, in the order of the blocks.
 void join_crowded(std::size_t blocks, ContactLists& lists);
 
-// Shares lists.crowded out to patches in the order that it has: lists.placed. One thread takes it as it is: these
-// contacts are visited two to five times, too few to pay for moving them.
+// Distributes lists.crowded to patches, in its order, into lists.placed. With one thread nothing is moved: these
+// contacts are visited two to five times, too few to pay for it.
 void place_crowded(const Disks& disks, const Executor& executor, ContactLists& lists);
 
 // The same on several ranks, where patches also have to wait for contacts of other ranks (Others: support_sweeps.hpp).
 template <class Others>
 void place_crowded(const Disks& disks, const Executor& executor, ContactLists& lists, Others& others);
 
-// lists.crowded in the order of the patches to lists.placed.
+// Copies lists.crowded to lists.placed in the order of the patches.
 void place_in_patches(const Executor& executor, ContactLists& lists);
 
 inline Pair disks_of(const ContactEvent& e) {
   return {e.i1, is_wall(e.id2) ? e.i1 : e.i2};
 }
 
-// task(contact, patch) for all of lists.crowded, in the order that place_crowded was given. before: as of run_patches.
+// Calls task(contact, patch) for all of lists.crowded, in the order that it had at place_crowded. before: as in
+// run_patches.
 template <class Task, class Before>
 void run_crowded(const Executor& executor, const ContactLists& lists, Task&& task, Before&& before) {
   const std::vector<ContactEvent>& list = lists.placed.empty() ? lists.crowded : lists.placed;
@@ -114,19 +115,19 @@ void run_crowded(const Executor& executor, const ContactLists& lists, Task&& tas
   run_crowded(executor, lists, task, [](std::uint32_t /*phase*/, bool /*backwards*/) {});
 }
 
-// Has the last sweep, or pass, left something to do? It sets lists.largest of the patch to 1 then: where it pushed a
-// contact because it was deep, or an impact may have made others.
+// Is another sweep or pass needed? A sweep sets lists.largest of a patch to 1 if it pushed a deep contact there, a pass
+// if an impact there may have made others.
 bool any_marked(const ContactLists& lists);
 
-// The deepest overlap left to the contacts event(0) to event(n - 1) goes to lists.figures.
+// Enters the deepest overlap left to the contacts event(0) to event(n - 1) in lists.figures.
 template <class View, class Event>
 void note_overlaps_left(const View& d, const Domain& box, std::size_t n, const Executor& executor, ContactLists& lists,
                         Event&& event);
 
-// What the blocks have seen goes to lists.figures.
+// Adds the figures of the blocks to lists.figures.
 void add_seen(ContactLists& lists);
 
-// Contacts a block of the parallel passes over them.
+// Contacts in a block of parallel passes over them.
 inline constexpr std::size_t contact_block = 1024;
 
 template <class View, class Event>

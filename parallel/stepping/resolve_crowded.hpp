@@ -1,5 +1,5 @@
-// The contacts of a step that are not alone, where nothing settles: impacts in order of time, then the sweeps of
-// pushing in order of ids.
+// Resolves the crowded contacts of a step in scenes in which nothing settles: impacts in order of time, then the sweeps
+// of pushing in order of ids.
 #pragma once
 
 #include "core/physics/impact_tally.hpp"
@@ -9,17 +9,17 @@
 
 namespace carom {
 
-// What resolving asks of other ranks. This one answers where one rank has the whole box; OtherRanks
-// (parallel/slabs/slab_stepping.cpp) where several have slabs of it. any(here): is it so on any rank? The number of
-// passes depends on all contacts of the step. counts(e): does this rank count the impact? Of two ranks that resolve a
-// contact, one does.
+// The cooperation with other ranks while contacts are resolved. SingleRank is for one rank with the whole box;
+// OtherRanks (parallel/slabs/slab_stepping.cpp) for several ranks with slabs of it. any(here): is `here` true on any
+// rank? (The number of passes depends on all contacts of the step.) counts(e): does this rank count the impact? Of two
+// ranks that resolve a contact, one does.
 struct SingleRank {
   static constexpr bool alone = true;
   bool any(bool here) const { return here; }
   bool counts(const ContactEvent& /*e*/) const { return true; }
 };
 
-// lists.crowded in canonical order of time; afterwards it is in order of ids.
+// Precondition: lists.crowded is in canonical order of time; afterwards it is in order of ids.
 template <class View, class Others>
 void resolve_crowded(const View& d, const StepRules& rules, const Disks& disks, const Executor& executor,
                      ContactLists& lists, ImpactTally& tally, Others&& others) {

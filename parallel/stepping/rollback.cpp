@@ -12,10 +12,10 @@ namespace carom {
 
 namespace {
 
-// Disks a block of the pass along the walls.
+// Disks in a block of the pass over walls.
 constexpr std::size_t wall_block = 8192;
 
-// The phases of RollbackMethod that time stepping in parallel has for it alone.
+// The phases that only RollbackMethod needs.
 class RollbackPhases : public TimeStepping {
  public:
   using TimeStepping::TimeStepping;
@@ -72,8 +72,8 @@ class RollbackPhases : public TimeStepping {
     });
     for (const ImpactTally& t : lists_.tallies) tally.add(t);
     for (const Overlap& deepest : deepest_) figures.wall.raise_to(deepest);
-    // A ceiling sends a disk down faster than it came, a rough wall one that spins, and a hot side, or one that moves,
-    // may send any.
+    // Disks may leave these walls faster than they came: a ceiling under gravity, a rough wall (by their spin), a
+    // thermal or a moving side.
     const bool rough = rules.surfaces != nullptr;
     if (rough || rules.gravity.acts() || rules.box.has_thermal_side() || rules.box.has_moving_wall()) forget_speeds();
   }

@@ -1,4 +1,4 @@
-// Which disks touch, and the search of one size class for the disks of another. For find_contacts.cpp alone.
+// The test whether two disks touch, and the search between two size classes. Included by find_contacts.cpp only.
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +16,8 @@ namespace carom {
 
 namespace {
 
-// The magnitude of nearest_image(d, period), with the same bits and without a branch: whether a neighbour is across the
-// border cannot be predicted. Beyond half a period the subtraction is exact.
+// The magnitude of nearest_image(d, period), with the same bits and without a branch, which would be hard to predict.
+// Beyond half a period the subtraction is exact.
 double nearest_magnitude(double d, double period) {
   return std::min(std::abs(d), period - std::abs(d));
 }
@@ -38,7 +38,7 @@ bool touch(const SearchInput& in, std::size_t i, std::size_t j) {
   }
 }
 
-// The search of disks of one size class for those of another, which all come after them in storage (`after`), or all
+// The search around disks of one size class for those of another, which are all stored after them (`after`), or all
 // before them. sheared: is the box sheared?
 template <bool sheared>
 class AcrossSearch {
@@ -57,7 +57,8 @@ class AcrossSearch {
   void operator()(std::size_t i, std::vector<Pair>& pairs) const {
     const std::uint32_t row = row_at(other_, in_.y[i]);
     const std::uint32_t column = cell_index(in_.x[i] * other_.columns_per_length, other_.columns);
-    // The cell has one on each side, none of them across a periodic side. (Of one or two there is none between others.)
+    // All eight neighbours of the cell exist, none of them across a periodic side. (With one or two cells that never
+    // holds.)
     const bool inside = column - 1U < other_.columns - 2U && row - 1U < other_.rows - 2U && other_.has_row(row - 1) &&
                         other_.has_row(row + 1);
     if (inside && in_.radius[i] < most_in_nine_cells_) return in_nine_cells(i, row, column, pairs);
@@ -71,10 +72,10 @@ class AcrossSearch {
   }
 
  private:
-  // So many units, in which the sum of two radii has 15 bits.
+  // In so many units the sum of two radii has 15 bits.
   static constexpr double most_units = 0x1p14;
 
-  // A disk as those of the other level see it, in that level's coarse units; the same in all lanes.
+  // A disk in the coarse units of the other level; the same in all lanes.
   struct CoarseDisk {
     Eight place, reach;
   };
@@ -86,8 +87,8 @@ class AcrossSearch {
             all(radius + coarse_radius_error)};
   }
 
-  // Can coarse positions tell what is not near disk i? Not where images are, nor for one so much larger than the others
-  // that distances from it do not fit in 16 bits.
+  // Can coarse positions be used for disk i? Not near periodic sides, and not if it is so large that distances do not
+  // fit in 16 bits.
   bool is_coarse_enough(std::size_t i, double reach) const {
     const auto has_images = [&](double c, double length, bool periodic) {
       return periodic && (c < reach || c + reach >= length);
@@ -96,13 +97,13 @@ class AcrossSearch {
            !has_images(in_.y[i], in_.box.height, in_.box.periodic_y());
   }
 
-  // Which of the disks first .. first + 7 may touch it.
+  // Which of the disks first .. first + 7 may touch the disk.
   Eight may_touch(const CoarseDisk& disk, std::uint32_t first) const {
     const Eight distance2 = squared(difference(disk.place, load(in_.position + first)));
     return exceeds(squared(sum(disk.reach, load(in_.coarse_radius + first))), distance2);
   }
 
-  // A run of three cells has mostly fewer than eight disks, and mostly none of them touches.
+  // A run of three cells usually has fewer than eight disks, and usually none of them touches.
   void in_nine_cells(std::size_t i, std::uint32_t row, std::uint32_t column, std::vector<Pair>& pairs) const {
     const std::uint32_t* const below = in_.start + (other_.first_key + (row - 1) * other_.stride + column - 1);
     const std::uint32_t* const own = below + other_.stride;
@@ -135,9 +136,10 @@ class AcrossSearch {
   const SearchInput& in_;
   const GridLevel& other_;
   bool after_;
-  double reach_;             // beyond the radius of a disk that searches; length
+  double reach_;             // search distance beyond the radius of the searching disk; length
   double units_per_length_;  // of the other level's coarse positions
-  // Disks of smaller radii find all in their cell and the eight around it, and have distances that fit in 16 bits.
+  // Disks of smaller radii find all neighbours in their cell and the eight around it, and have distances that fit in 16
+  // bits, respectively.
   double most_in_nine_cells_, most_coarse_;  // length
 };
 

@@ -11,7 +11,7 @@ namespace carom {
 
 namespace {
 
-// The coarse columns, and what the disks of a level are tested against.
+// The coarse columns, and the bounds of the test for a level.
 template <bool own_radius>
 class CoarseTest {
  public:
@@ -39,8 +39,8 @@ class CoarseTest {
   Eight own_reach_;     // unequal radii: its own and the error
 };
 
-// Adds the pairs of disk i and those of disks [first, last) that the coarse test lets through, and prefetches what the
-// test in double precision will read.
+// Adds the pairs of disk i with those of disks [first, last) that pass the coarse test, and prefetches what the test in
+// double precision will read.
 template <bool own_radius>
 void add_candidates(const SearchInput& in, const CoarseTest<own_radius>& coarse, std::size_t i, std::uint32_t first,
                     std::uint32_t last, std::vector<Pair>& pairs) {
@@ -58,8 +58,8 @@ void add_candidates(const SearchInput& in, const CoarseTest<own_radius>& coarse,
   }
 }
 
-// Disk i against the first disks of both runs. Few disks get here: not inlined, so that the loop over all of them keeps
-// its registers.
+// Tests disk i against the first disks of both runs. Few disks need it: not inlined, so that the loop over all disks
+// keeps its registers.
 template <bool own_radius>
 [[gnu::noinline]] void test_disk(const SearchInput& in, std::uint32_t contact2, std::uint32_t stride, std::size_t i,
                                  std::vector<Pair>& pairs) {
@@ -70,7 +70,7 @@ template <bool own_radius>
   add_candidates(in, coarse, i, runs.above, std::min(runs.above_end, runs.above + lanes), pairs);
 }
 
-// Those of disks [begin, end) that have a long run (CoarsePositions) against the rest of both runs.
+// Tests those of disks [begin, end) that have a long run (CoarsePositions) against the rest of both runs.
 template <bool own_radius>
 void test_long_runs(const SearchInput& in, std::uint32_t contact2, std::uint32_t stride, std::size_t begin,
                     std::size_t end, std::vector<Pair>& pairs) {
@@ -84,7 +84,7 @@ void test_long_runs(const SearchInput& in, std::uint32_t contact2, std::uint32_t
   }
 }
 
-// Of the pairs from `first` on, keeps those that touch.
+// Removes pairs from index `first` on that do not touch.
 template <bool own_radius>
 void keep_touching(const SearchInput& in, std::size_t first, std::vector<Pair>& pairs) {
   std::size_t kept = first;
@@ -99,8 +99,8 @@ void keep_touching(const SearchInput& in, std::size_t first, std::vector<Pair>& 
   pairs.erase(pairs.begin() + static_cast<std::ptrdiff_t>(kept), pairs.end());  // resize could grow, which costs code
 }
 
-// A run has mostly fewer than eight disks, and mostly none of them touches: two disks are tested against eight of both
-// runs at once.
+// A run usually has fewer than eight disks, and usually none of them touches: two disks are tested against eight of
+// both runs at once.
 template <bool own_radius>
 void search_row(const SearchInput& in, const GridLevel& level, std::size_t begin, std::size_t end,
                 std::vector<Pair>& pairs) {

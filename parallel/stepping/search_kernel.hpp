@@ -1,4 +1,4 @@
-// What the search of one block needs, and the interior kernel in the versions that this machine may have.
+// The input of the search of one block, and the interior kernel in versions for several instruction sets.
 #pragma once
 
 #include <cstddef>
@@ -22,12 +22,12 @@ struct SearchInput {
   const std::uint32_t* start;
   std::size_t n;  // all disks
   Domain box;
-  double period_x, period_y;  // along a side that is not periodic, infinite
+  double period_x, period_y;  // infinite if not periodic
 };
 
-// Tests disks [begin, end) of one row of one level, all away from periodic sides, against the disks behind them in
-// their own row and those of the row above: two contiguous runs for each disk. Coarse positions are tested by vectors,
-// and pairs that may touch by the scalar formula. Appends the pairs that touch.
+// Tests disks [begin, end) of one row of one level, all away from periodic sides, against the disks after them in their
+// own row and those of the row above: two contiguous runs for each disk. Coarse positions are tested with vectors, and
+// pairs that may touch by the scalar formula. Appends the pairs that touch.
 using InteriorKernel = void (*)(const SearchInput& in, const GridLevel& level, std::size_t begin, std::size_t end,
                                 std::vector<Pair>& pairs);
 
@@ -36,7 +36,7 @@ void search_interior_baseline(const SearchInput& in, const GridLevel& level, std
 void search_interior_avx2(const SearchInput& in, const GridLevel& level, std::size_t begin, std::size_t end,
                           std::vector<Pair>& pairs);
 
-// The best version for the processor at hand; all give the same pairs in the same order.
+// The best version for this processor; all give the same pairs in the same order.
 InteriorKernel choose_interior_kernel();
 
 }  // namespace carom

@@ -1,4 +1,5 @@
-// Scenes that settle: impacts, supports and pushing of core/reference/step_contacts.cpp, patch by patch.
+// Resolves the contacts of a step in a scene that settles: impacts, supports and pushing, by patches, with the bits of
+// core/reference/step_contacts.cpp.
 #pragma once
 
 #include <vector>
@@ -18,17 +19,18 @@ struct ContactLists;
 
 // Lists of the settling phase, kept so that a warm step allocates nothing.
 struct SettleLists {
-  IdOrder pairs;              // the step's contacts
-  std::vector<double> borne;  // the force on each pair in order of ids: of the step, or round, before, then of this one
-  std::vector<IdPair> placed;          // the pairs in the order of the patches, so that sweeps read them in a row,
-  std::vector<unsigned char> holding;  // and whether each bears load
+  IdOrder pairs;  // the step's contacts
+  std::vector<double>
+      borne;  // force on each pair, in order of ids: first of the step, or round, before, then of this one
+  std::vector<IdPair> placed;          // the pairs in the order of the patches, so that sweeps read them contiguously
+  std::vector<unsigned char> holding;  // of each of them: does it bear load?
   SupportBatches batches;
-  SupportSet supports;                // an entry a slot of the batches; velocities end with the patches' spare disks
+  SupportSet supports;  // an entry for each slot of the batches; velocities end with the patches' spare disks
   std::vector<CycleFigures> figures;  // of each patch in a cycle of sweeps
   std::vector<SupportTotals> totals;  // of each patch
 };
 
-// Resolves all pairs found and wall contacts, keeps their loads in state.loads, wraps the disks that had contacts, and
+// Resolves all pairs found and wall contacts, stores their loads in state.loads, wraps the disks that had contacts, and
 // returns the largest squared speed among those.
 double settle_contacts(State& state, const StepRules& rules, const FoundContacts& found, const Executor& executor,
                        ContactLists& lists, ImpactTally& tally);

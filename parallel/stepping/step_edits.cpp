@@ -1,5 +1,5 @@
-// Time stepping while a program adds, takes away and pushes disks between steps: the cells stay, and what is no longer
-// where the cells say is loose (coarse_positions.hpp).
+// Changes by a program between two steps of time stepping: the cells are kept, and disks that are not in their cells
+// are loose (coarse_positions.hpp).
 #include <algorithm>
 #include <cstdint>
 
@@ -11,10 +11,10 @@ namespace carom {
 
 namespace {
 
-// Each loose disk is compared with every other one in every step: more of them cost as much as sorting all disks.
+// All pairs of loose disks are tested in every step: more of them would cost as much as sorting all disks.
 constexpr std::size_t most_loose = 256;
 
-// The disk that apply() stores last has come.
+// Enters the new disk, which apply() has stored last.
 void add_loose(const Disks& d, CellList& cells) {
   CoarsePositions& coarse = cells.coarse;
   cells.sorted.key.push_back(cells.grid.levels.front().start_key());
@@ -23,7 +23,7 @@ void add_loose(const Disks& d, CellList& cells) {
   coarse.loose.push_back(static_cast<std::uint32_t>(d.size() - 1));
 }
 
-// Disk i is to go, and the last of n to take its place.
+// To be called before disk i is removed and the last of n takes its place.
 void remove_loose(std::size_t i, std::size_t n, CellList& cells) {
   CoarsePositions& coarse = cells.coarse;
   std::vector<std::uint32_t>& loose = coarse.loose;
@@ -36,14 +36,14 @@ void remove_loose(std::size_t i, std::size_t n, CellList& cells) {
     if (!coarse.radius.empty()) coarse.radius[i] = coarse.radius[last];
   }
   cells.sorted.key.pop_back();
-  // Where the last one was in a cell, that cell and the empty ones behind it end sooner.
+  // If the last disk was in a cell, that cell and the empty ones after it become shorter.
   std::vector<std::uint32_t>& start = cells.sorted.start;
   for (std::size_t k = start.size(); k-- > 0 && start[k] == n;) --start[k];
 }
 
 }  // namespace
 
-// In a pile, disks that were pressed together are looked for in cells alone.
+// Not in a pile: there disks that were pressed together are searched in cells only.
 bool TimeStepping::may_be_loose(const Edit& edit) const {
   const Disks& d = state_.disks;
   if (!cells_valid_ || settles(scene_) || cells_.coarse.loose.size() >= most_loose || d.size() < 2) return false;

@@ -10,11 +10,11 @@ namespace carom {
 
 namespace {
 
-// Where disks crowd, most cells are empty, and each sort clears and adds up all of them; the fewer they are, the more
-// disks a search tests. Both together take the least time if cells are so many times the root of the crowding as many:
-// 0.7 to 2.5 are about as good, for clusters and piles 3 to 100 times as dense as their box. In proportion to
-// the crowding, a cluster in a gas takes more than twice as long, and disks beside sources and sinks, which are sorted
-// in every step, 2.5 times.
+// If disks are crowded, most cells are empty, and each sort clears and scans all of them; with fewer cells, a search
+// tests more disks. The total time is least if the number of cells is increased by this factor times the root of the
+// crowding; 0.7 to 2.5 are about as good, for clusters and piles 3 to 100 times as dense as their box. With cells in
+// proportion to the crowding, a cluster in a gas takes more than twice as long, and disks beside sources and sinks,
+// which are sorted in every step, 2.5 times.
 constexpr double cells_a_root = 1.5;
 
 double cells_for_crowded(double crowded) {

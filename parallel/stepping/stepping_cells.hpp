@@ -10,8 +10,9 @@
 
 namespace carom {
 
-// Cells for these disks, where they are now; more of them where disks crowd. count: becomes the number of disks of each
-// class (class_of_radius). The memory that both have is used again. Precondition: there are disks.
+// Makes the cells for these disks at their present positions; more of them if disks are crowded. count: set to the
+// number of disks of each class (class_of_radius). The memory of count and grid is reused. Precondition: there are
+// disks.
 void make_stepping_cells(const Disks& disks, const Domain& box, std::vector<std::size_t>& count, CellGrid& grid);
 
 }  // namespace carom

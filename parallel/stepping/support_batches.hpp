@@ -1,7 +1,7 @@
-// The supports of a step four at a time, for kernels that relax four at once: the supports of a batch share no disk,
-// and the batches of a patch one after another have each disk's supports in the order of the step's contacts. So sweeps
-// over batches, forward or back, have the bits of the serial sweeps: supports that share no disk commute exactly.
-// (Box2D 3 colours its contacts to the same end, for another order and so other bits.)
+// The supports of a step in batches of four, for kernels that relax four at once. The supports of a batch share no
+// disk, and over the batches of a patch each disk's supports keep the order of the step's contacts. So sweeps over
+// batches, forward or back, have the bits of the serial sweeps: supports that share no disk commute exactly. (Box2D 3
+// colours its contacts for the same purpose; that changes their order, and the bits.)
 #pragma once
 
 #include <cstddef>
@@ -15,14 +15,14 @@ namespace carom {
 
 inline constexpr std::size_t batch_lanes = 4;
 
-// A lane that is left over has effective mass 1 and no direction: its impulse is and stays 0, and its disks are the
-// patch's spare one (SupportBatches::spare).
+// An unused lane has effective mass 1 and no direction: its impulse stays 0, and its disks are the patch's spare one
+// (SupportBatches::spare).
 struct alignas(32) SupportBatch {  // as Support
   double nx[batch_lanes], ny[batch_lanes];
-  double inverse1[batch_lanes], inverse2[batch_lanes];  // the second is 0 for a wall alone, and where there is none
+  double inverse1[batch_lanes], inverse2[batch_lanes];  // the second is 0 for a wall, and in unused lanes
   double wall_speed[batch_lanes];
   double effective[batch_lanes];
-  // Twice where the disks are stored: where their velocities are, counted in doubles.
+  // Indices of the disks' velocities, counted in doubles: twice the storage indices.
   std::uint32_t v1[batch_lanes], v2[batch_lanes];
 };
 
@@ -31,37 +31,37 @@ inline constexpr std::uint32_t no_slot = ~std::uint32_t{0};
 struct SupportBatches {
   std::vector<SupportBatch> batch;   // patch by patch
   std::vector<std::uint32_t> first;  // of each patch; patches + 1
-  // Of each contact in the order of the patches: 4 times its batch and its lane, or no_slot where it is no support.
+  // For each contact in the order of the patches: 4 batch + lane, or no_slot if it is not a support.
   std::vector<std::uint32_t> slot;
   // Scratch.
   struct Latest {
     std::uint32_t patch, batch;
   };
-  std::vector<Latest> latest;  // of each disk: where its latest support is
-  // In a patch, batch by batch from the patch's start: how many lanes are taken, and a batch that is not before the
-  // first with a lane left from this one on.
+  std::vector<Latest> latest;  // of each disk: its latest support
+  // For the batches of a patch, from the patch's start: the number of lanes taken; and, from each batch on, a lower
+  // bound on the first batch with a free lane.
   std::vector<unsigned char> taken;
   std::vector<std::uint32_t> onward;
 
   std::size_t slots() const { return batch_lanes * batch.size(); }
-  // Where the velocity of the spare disk of a patch is: no two of them share a cache line.
+  // The index of the spare disk of a patch; no two spare disks share a cache line.
   static std::size_t spare(std::size_t disks, std::size_t patch) { return disks + batch_lanes * patch; }
 };
 
-// Makes room for the contacts of these patches, before place_in_batches.
+// Allocates for the contacts of these patches, before place_in_batches.
 void begin_batches(SupportBatches& batches, const Patches& patches, std::size_t disks);
 
-// The slots of a patch's supports, from its own first batch on; batches.first[patch + 1] becomes its number of batches.
-// disks_of(at): the disks of the contact at this place of the patches' order, twice the same for a wall;
-// is_support(at): is it a support? Patches that share disks: in their order.
+// Sets the slots of a patch's supports, counted from its own first batch, and batches.first[patch + 1] to its number of
+// batches. disks_of(at): the disks of the contact at this place of the patches' order, twice the same for a wall;
+// is_support(at): is it a support? Patches that share disks must be placed in their order.
 template <class DisksOf, class IsSupport>
 void place_in_batches(SupportBatches& batches, const Patches& patches, std::size_t patch, DisksOf&& disks_of,
                       IsSupport&& is_support);
 
-// After all patches: the first batch of each, and that many batches.
+// After all patches: sets the first batch of each patch, and allocates the batches.
 void lay_out_batches(SupportBatches& batches);
 
-// Makes all batches of a patch empty, and its slots those among all batches. spare: SupportBatches::spare.
+// Empties all batches of a patch, and renumbers its slots among all batches. spare: SupportBatches::spare.
 void clear_batches(SupportBatches& batches, const Patches& patches, std::size_t patch, std::size_t spare);
 
 inline void put_support(SupportBatches& batches, std::uint32_t slot, const Support& s) {
@@ -84,7 +84,7 @@ inline Support support_in(const SupportBatches& batches, std::uint32_t slot) {
           b.wall_speed[lane], b.effective[lane], b.v1[lane] / 2,   b.v2[lane] / 2};
 }
 
-// The first batch from b on with a lane left, or the next one that is new. onward: of the patch.
+// The first batch from b on with a free lane, or the next new one. onward: of the patch.
 inline std::uint32_t find_open(std::uint32_t* onward, std::uint32_t b) {
   while (onward[b] != b) {
     onward[b] = onward[onward[b]];
@@ -99,7 +99,7 @@ void place_in_batches(SupportBatches& batches, const Patches& patches, std::size
   const std::uint32_t start = patches.start[patch];
   const auto q = static_cast<std::uint32_t>(patch);
   unsigned char* const taken = batches.taken.data() + start;
-  // One more than its contacts: the patch's own number moves it on.
+  // A patch has one entry more than contacts, so its part is shifted by its own number.
   std::uint32_t* const onward = batches.onward.data() + start + patch;
   std::uint32_t count = 0;
   onward[0] = 0;

@@ -19,7 +19,7 @@ inline Doubles choose(Longs truth, Doubles a, Doubles b) {
 #endif
 }
 
-// b where one of both is not a number.
+// b if either is NaN.
 inline Doubles larger(Doubles a, Doubles b) {
 #if defined(__AVX__)
   return __builtin_bit_cast(Doubles, __builtin_ia32_maxpd256(a, b));
@@ -84,7 +84,7 @@ inline Doubles relax(const SupportBatch& b, double* v, double* impulses) {
   first.y -= change * (ny * inverse1);
   second.x += change * (nx * inverse2);
   second.y += change * (ny * inverse2);
-  // The first ones last: at a wall the second disk is the first.
+  // The first disk is written last: at a wall both are the same disk.
   scatter(v, b.v2, second);
   scatter(v, b.v1, first);
   return change;

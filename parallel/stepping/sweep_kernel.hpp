@@ -1,4 +1,4 @@
-// The kernels that relax supports and extrapolate their impulses, in the versions that this machine may have.
+// The kernels that relax supports and extrapolate their impulses, in versions for several instruction sets.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ namespace carom {
 
 struct SweepInput {
   const SupportBatch* batch;
-  // An entry a slot; as in SupportSet.
+  // One entry for each slot; as in SupportSet.
   double* impulse;
   double* last;
   double* before;
@@ -24,13 +24,13 @@ struct SweepInput {
 enum class Sweep { forward, back };
 
 struct SweepKernels {
-  // What relax_forward or relax_back do, of batches [begin, end); the figures' sums stay. figures: null where nothing
-  // is watched.
+  // relax_forward or relax_back for batches [begin, end), without the sums of the figures. figures: null under
+  // Watch::nothing.
   void (*relax)(const SweepInput& in, Sweep sweep, Watch watch, std::size_t begin, std::size_t end,
                 CycleFigures* figures);
-  // What extrapolate_impulses does, of batches [begin, end).
+  // extrapolate_impulses for batches [begin, end).
   void (*extrapolate)(const SweepInput& in, std::size_t begin, std::size_t end, double momentum);
-  // What extrapolate_velocity does, of those of disks [begin, end) that have contacts.
+  // extrapolate_velocity for those of disks [begin, end) that have contacts.
   void (*extrapolate_velocities)(const SweepInput& in, const std::uint16_t* contacts, std::size_t begin,
                                  std::size_t end, double momentum);
 };
@@ -38,7 +38,7 @@ struct SweepKernels {
 SweepKernels sweep_kernels_baseline();
 SweepKernels sweep_kernels_avx2();
 
-// The best versions for the processor at hand; all have the same bits.
+// The best versions for this processor; all give the same bits.
 SweepKernels choose_sweep_kernels();
 
 }  // namespace carom

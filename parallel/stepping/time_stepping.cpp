@@ -21,7 +21,7 @@ namespace carom {
 
 namespace {
 
-// Disks a block in passes that look at each disk once.
+// Disks in a block of a single pass.
 constexpr std::size_t look_block = 8192;
 
 }  // namespace
@@ -66,8 +66,8 @@ void TimeStepping::start_interval(double t, double dt, Count step) {
   if (scene_.physics.diffusion > 0.0) draw_velocities(dt, step);
 }
 
-// A newcomer is tested against the disks in the cells around it and against those that came in just before it. The
-// cells are made anew at the first question of a step, when none has come in yet.
+// A new disk is tested against the disks in the cells around it and against those emitted just before it. The cells are
+// made anew at the first test of a step, before any disk has been emitted.
 void TimeStepping::emit_from_sources(double t, Count step) {
   const Disks& d = state_.disks;
   std::size_t in_cells = 0;
@@ -122,8 +122,8 @@ double TimeStepping::exact_travel2() {
 Count TimeStepping::parts(double dt) {
   if (state_.disks.empty()) return 1;
   if (smallest_radius_ == 0.0 || !scene_.sources.empty()) smallest_radius_ = smallest_radius(state_.disks);
-  // The bound from the phases before is mostly enough to see that the step is safe; if not, the true figure decides,
-  // and it is the reference's. Sinks may have taken the smallest disk: then too the true figure is taken.
+  // The bound from earlier phases usually shows that the step is safe; if not, the exact value is computed, which is
+  // that of the reference. So it is if sinks may have taken the smallest disk.
   const double fall = common_travel(scene_, dt, smallest_radius_);
   if (speed2_known_ && (std::sqrt(speed2_) / smallest_radius_ + fall) * dt < 0.99 * safe_travel) return 1;
   if (has_sinks(scene_.box) || smallest_may_be_gone_) smallest_radius_ = smallest_radius(state_.disks);
@@ -158,8 +158,8 @@ void TimeStepping::drift(double t) {
   speed2_known_ = true;
 }
 
-// In a sheared box all disks drift and cross its sides here, before their coarse positions are written. With t = 0,
-// those that contacts have moved cross the sides.
+// In a sheared box all disks drift and are wrapped here, before their coarse positions are written. t = 0 only wraps
+// disks that contacts have moved.
 void TimeStepping::move_sheared(double t) {
   ImpactTally tally;
   speed2_ = carom::move_sheared(state_.disks, scene_.box, t, executor_, tally, sheared_);
@@ -176,7 +176,7 @@ void TimeStepping::search(const StepRules& rules) {
     if (!state_.disks.empty()) {
       if (!cells_.coarse.current) note_coarse_positions(state_.disks, scene_.box, executor_, cells_);
       strays_ = find_contacts(state_.disks, scene_.box, cells_, executor_, found_);
-      cells_.coarse.current = false;  // what was found will be moved
+      cells_.coarse.current = false;  // resolving will move disks
     }
   }
   if (!has_walls(rules.box)) return;

@@ -1,4 +1,4 @@
-// What the two time-stepping methods share in parallel: disks in cells, and the phases of a step.
+// The base of the two parallel time-stepping methods: disks in cells, and the phases of a step.
 #pragma once
 
 #include <memory>
@@ -42,13 +42,13 @@ class TimeStepping : public Engine {
   void drift(double t);                                  // all disks
   void search(const StepRules& rules);                   // touching pairs and wall contacts
   StepFigures resolve(const StepRules& rules);           // impacts, supports, pushing apart, wrapping (pairwise)
-  void keep_places();                                    // for presses_others, before resolving
-  bool presses_others();                                 // has resolving pressed disks together? (a pile)
+  void keep_places();                                    // positions before resolving, for presses_others
+  bool presses_others();                                 // in a pile: has resolving pressed disks together?
   void gather(const StepRules& rules);                   // all contacts into lists_.events (rollback)
-  void finish_contacts();                                // wraps what they moved
+  void finish_contacts();                                // wraps the disks that contacts moved
   void remove_at_sinks();
   Count all_disks() const { return state_.disks.size(); }
-  void forget_speeds() { speed2_known_ = false; }  // after a phase that may have raised one unseen
+  void forget_speeds() { speed2_known_ = false; }  // after a phase that may have raised a speed
 
   Scene scene_;
   State state_;
@@ -71,16 +71,16 @@ class TimeStepping : public Engine {
   FoundContacts found_;  // in the last search
   DisplacedDisks displaced_;
   std::vector<unsigned char> gone_;
-  bool closed_up_ = false;                 // since the last search disks have left storage, those marked in gone_
+  bool closed_up_ = false;                 // since the last search, disks marked in gone_ have been removed
   std::vector<double> block_values_;       // scratch, one a block
   ShearedBlocks sheared_;                  // likewise, of a sheared box
   std::vector<std::size_t> class_counts_;  // disks of each size class
   double smallest_radius_ = 0.0;           // 0: not known
-  bool smallest_may_be_gone_ = false;      // a program took a disk away
+  bool smallest_may_be_gone_ = false;      // a program has removed a disk
   double excursion_ = -1.0;                // as furthest_excursion; negative: not known
   double speed2_ = 0.0;                    // no disk's squared speed is larger
-  bool speed2_known_ = false;              // false: speed2_ must be taken anew
-  bool cells_valid_ = false;               // storage order and cells_ still belong together
+  bool speed2_known_ = false;              // false: speed2_ must be computed anew
+  bool cells_valid_ = false;               // cells_ belong to the present storage order
   std::size_t strays_ = 0;                 // in the last search
 };
 

@@ -1,4 +1,4 @@
-// Whether a disk touches a wall, without asking for each disk what kinds of sides there are.
+// A test whether a disk touches a wall, with the kinds of sides evaluated once for all disks.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@ inline bool has_walls(const Domain& box) {
   return box.has(SideKind::wall) || box.obstacles != nullptr;
 }
 
-// For each side, the value of reach_beyond (core/physics/boundary.hpp) from which a disk touches it: 0 for a wall, less
-// for one that has moved into the box, and infinity for a side that is no wall.
+// For each side, the value of reach_beyond (core/physics/boundary.hpp) from which on a disk touches it: 0 for a wall,
+// negative for a wall that has moved into the box, infinity for other sides.
 class WallReach {
  public:
   explicit WallReach(const Domain& box) : width_(box.width), height_(box.height), obstacles_(box.obstacles) {
@@ -24,13 +24,13 @@ class WallReach {
       least_[static_cast<std::size_t>(side)] =
           box.side(side) == SideKind::wall ? -box.place(side).inset : std::numeric_limits<double>::infinity();
     }
-    // Where there are obstacles every disk passes the first test, so that others are asked for nothing more.
+    // With obstacles every disk passes the first test, so that scenes without obstacles need no further one.
     first_left_ = obstacles_ == nullptr ? least_[0] : -std::numeric_limits<double>::infinity();
   }
 
   const std::array<double, 4>& least() const { return least_; }
 
-  // Does a disk of radius r at (x, y) touch a wall or reach beyond it, or may it touch an obstacle?
+  // Does a disk of radius r at (x, y) touch or overlap a wall, or may it touch an obstacle?
   bool touches(double x, double y, double r) const {
     const bool other = ((x + r) - width_ >= least_[1]) | (r - y >= least_[2]) | ((y + r) - height_ >= least_[3]);
     if (!(other | (r - x >= first_left_))) return false;
