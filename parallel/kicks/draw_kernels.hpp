@@ -1,4 +1,4 @@
-// The kernels that draw random numbers for disks, in the versions that this machine may have.
+// The kernels that draw random numbers for disks, in versions for several instruction sets.
 #pragma once
 
 #include <cstddef>
@@ -17,10 +17,10 @@ struct NormalDraws {
   Stream stream;
   std::uint64_t step;
   double scale;     // of the deviates
-  bool accumulate;  // adds what is drawn to x and y, in place of setting them
+  bool accumulate;  // adds the deviates to x and y instead of setting them
 };
 
-// Draws both deviates of disks [begin, end): scale times normals(seed, stream, id, step). Returns the largest x^2 +
+// Draws both deviates for disks [begin, end): scale times normals(seed, stream, id, step). Returns the largest x^2 +
 // y^2.
 using NormalsKernel = double (*)(const NormalDraws& in, std::size_t begin, std::size_t end);
 
@@ -45,7 +45,7 @@ struct DrawKernels {
   UniformsKernel uniforms;
 };
 
-// The best versions for the processor at hand; all give the same bits.
+// The best versions for this processor; all give the same bits.
 DrawKernels choose_draw_kernels();
 
 }  // namespace carom

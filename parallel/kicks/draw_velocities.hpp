@@ -1,4 +1,4 @@
-// Brownian velocities of a step, on threads.
+// Draws the Brownian velocities of a step, in parallel.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,8 @@
 
 namespace carom {
 
-// Draws those of step number `step`, of length dt, for all disks; returns the largest squared speed. scratch: any.
+// Draws those of step number `step`, of length dt, for all disks; returns the largest squared speed. scratch: any
+// vector.
 double draw_velocities(Disks& disks, const Scene& scene, double dt, Count step, const Executor& executor,
                        std::vector<double>& scratch);
 

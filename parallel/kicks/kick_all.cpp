@@ -17,13 +17,13 @@ namespace {
 // Disks whose deviates are drawn together: they stay in the first-level cache.
 constexpr std::size_t batch = 256;
 
-// Those of a batch of disks that a kick chooses.
+// The disks of a batch that a kick chooses.
 struct Chosen {
   std::array<std::uint32_t, batch> disk;
   std::array<DiskId, batch> id;
   std::size_t count = 0;
 
-  // All of disks [first, first + n).
+  // Chooses all of disks [first, first + n).
   void take_all(const Disks& d, std::size_t first, std::size_t n) {
     count = n;
     for (std::size_t k = 0; k < n; ++k) {
@@ -32,7 +32,7 @@ struct Chosen {
     }
   }
 
-  // Those of them whose number u is below the share. There is no branch, as it could not be predicted.
+  // Keeps those whose number u is below the share, without a branch, which could not be predicted.
   void take_share(double share, const std::array<double, batch>& u) {
     const std::size_t n = count;
     count = 0;

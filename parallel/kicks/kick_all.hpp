@@ -1,4 +1,4 @@
-// The kicks of a thermostat, shared out among threads.
+// The kicks of a thermostat, in parallel.
 #pragma once
 
 #include <cstddef>
@@ -15,16 +15,16 @@ namespace carom {
 // Disks a block.
 inline constexpr std::size_t kick_block = 4096;
 
-// Does what core/step/thermostat.hpp does if a kick is due, with the same bits. Returns whether it was. kicked: where
-// it is given, the disks that the kick chose are added to it.
+// kick_if_due of core/step/thermostat.hpp, with the same bits. Returns whether a kick was due. kicked: if not null, the
+// disks that were kicked are added to it.
 bool kick_if_due(const Scene& scene, State& state, const Executor& executor,
                  std::vector<std::uint32_t>* kicked = nullptr);
 
-// Kick number `number` for disks [begin, end); the energy that it gives them is added to heat. kicked: as above.
+// Kick number `number` for disks [begin, end); adds the energy that it gives them to heat. kicked: as above.
 void kick_range(Disks& disks, const Scene& scene, Count number, std::size_t begin, std::size_t end, ExactSum& heat,
                 std::vector<std::uint32_t>* kicked = nullptr);
 
-// The same for all these disks; returns the energy that it gave them.
+// The same for all disks; returns the energy that it gave them.
 ExactSum kick_all(Disks& disks, const Scene& scene, Count number, const Executor& executor,
                   std::vector<std::uint32_t>* kicked = nullptr);
 

@@ -16,9 +16,10 @@ namespace carom {
 
 namespace {
 
-// What the threads share: a queue of messages for each rank and direction, and a table that all of them fill and read.
-// Each rank sleeps by itself: a message wakes the one that it is for, and a full table every other one, once. Tests
-// have more ranks than cores, where threads that wake in vain, or wait for one lock, cost more than all else.
+// The data shared by the threads: a queue of messages for each rank and direction, and a table that all ranks fill and
+// read. Each rank has its own condition to sleep on: a message wakes only its receiver, and a full table wakes every
+// other rank once. Tests have more ranks than cores, and then threads that wake in vain, or wait for a common lock,
+// would cost more than everything else.
 class Meeting {
  public:
   explicit Meeting(int count) : places_(static_cast<std::size_t>(count)) {
@@ -47,9 +48,9 @@ class Meeting {
     return message;
   }
 
-  // The entries of all ranks, until this rank calls again. turn: 1 at the first call, 2 at the second. Two tables take
-  // turns: no rank fills the next one before all have filled this one, and none fills this one again before all have
-  // read it, as they fill the next one afterwards.
+  // Returns the entries of all ranks, valid until this rank calls again. turn: 1 at the first call, 2 at the second,
+  // and so on. Two tables are used in turn: no rank fills the next table before all have filled this one, and none
+  // fills this one again before all have read it, since they then fill the next one.
   const std::vector<Bytes>& share(int rank, int turn, const Bytes& entry) {
     Table& table = tables_[static_cast<std::size_t>(turn % 2)];
     table.entries[static_cast<std::size_t>(rank)] = entry;
@@ -65,7 +66,7 @@ class Meeting {
     return table.entries;
   }
 
-  // A rank has thrown.
+  // To be called when a rank has thrown.
   void fail(std::exception_ptr error) {
     {
       const std::lock_guard lock(error_mutex_);
@@ -81,8 +82,8 @@ class Meeting {
   struct Place {
     std::deque<Bytes>& queue(bool of_below) { return of_below ? from_below : from_above; }
 
-    // A message mostly comes within microseconds, once its sender has a core. To sleep and to be woken takes longer, on
-    // a virtual machine ten times as long: so other threads go first for some turns.
+    // A message usually comes within microseconds, once its sender has a core. To sleep and be woken takes longer, on a
+    // virtual machine ten times as long; so the thread first yields to others a few times.
     template <class Come>
     void wait(std::unique_lock<std::mutex>& lock, Come&& come) {
       constexpr int turns = 50;
@@ -103,7 +104,7 @@ class Meeting {
     std::atomic<int> filled = 0;
   };
 
-  // The lock is for one that has looked and does not wait yet.
+  // The lock is needed for a rank that has checked but does not wait yet.
   void wake_all() {
     for (Place& place : places_) {
       { const std::lock_guard lock(place.mutex); }
@@ -193,7 +194,7 @@ void run_on_local_ranks(int count, const std::function<void(Ranks&)>& body) {
   };
   try {
     for (int r = 0; r < count; ++r) threads.emplace_back(run_rank, r);
-  } catch (...) {  // a thread could not be started: those that run would wait for it for ever
+  } catch (...) {  // a thread could not be started: the others would wait for it for ever
     meeting.fail(std::current_exception());
   }
   for (std::thread& thread : threads) thread.join();

@@ -1,5 +1,5 @@
-// Numbers and records packed into the bytes of a message, and taken out again in the same order. All ranks run on the
-// same kind of machine, so records travel as they lie in memory.
+// Packs numbers and records into the bytes of a message, and reads them in the same order. All ranks run on the same
+// kind of machine, so records are sent as they lie in memory.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ void put(Bytes& message, const T& value) {
   std::memcpy(message.data() + end, &value, sizeof(T));
 }
 
-// Their number first.
+// The number of values comes first.
 template <class T>
 void put_all(Bytes& message, const std::vector<T>& values) {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -35,8 +35,8 @@ inline void put_text(Bytes& message, const std::string& text) {
   put_all(message, std::vector<char>(text.begin(), text.end()));
 }
 
-// Reads a message that put, put_all and put_text have made; throws std::out_of_range where it is shorter. The message
-// outlives it.
+// Reads a message made by put, put_all and put_text; throws std::out_of_range if it is too short. The message must
+// outlive the reader.
 class MessageReader {
  public:
   explicit MessageReader(const Bytes& message) : message_(message) {}
@@ -65,7 +65,7 @@ class MessageReader {
     return {text.begin(), text.end()};
   }
 
-  // Calls use(value) for each value that put_all has put there, without a copy of them all.
+  // Calls use(value) for each value of a put_all, without copying all of them.
   template <class T, class Use>
   void for_each(Use&& use) {
     const auto count = get<std::size_t>();

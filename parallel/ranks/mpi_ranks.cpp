@@ -11,11 +11,11 @@ namespace carom {
 
 namespace {
 
-// A message that goes up, and one that goes down: of two ranks, both go to the same one.
+// Messages upwards and downwards need different tags: with two ranks both go to the same one.
 constexpr int tag_up = 1;
 constexpr int tag_down = 2;
 constexpr int tag_to_first = 3;
-// MPI counts bytes in an int: a longer message goes in parts.
+// MPI counts bytes in an int, so longer messages are sent in parts.
 constexpr std::size_t longest_part = std::size_t{1} << 30;
 
 int length_of_part(std::size_t size, std::size_t from) {
@@ -69,7 +69,7 @@ class MpiRanks final : public Ranks {
     return all;
   }
 
-  // The others send, one after the other: none of them has to hold more than its own.
+  // The other ranks send one after the other, so that none has to hold more than its own entry.
   std::vector<Bytes> gather_at_first(const Bytes& here) override {
     if (rank_ != 0) {
       std::vector<MPI_Request> sends;
@@ -95,7 +95,8 @@ class MpiRanks final : public Ranks {
     return message;
   }
 
-  // The length, then the parts; messages between two ranks with one tag keep their order. Both outlive the requests.
+  // Sends the length, then the parts; messages between two ranks with one tag keep their order. length and message must
+  // outlive the requests.
   static void send(const std::uint64_t& length, const Bytes& message, int to, int tag,
                    std::vector<MPI_Request>& sends) {
     MPI_Isend(&length, 1, MPI_UINT64_T, to, tag, MPI_COMM_WORLD, &sends.emplace_back());
@@ -121,7 +122,7 @@ class MpiRanks final : public Ranks {
 
 }  // namespace
 
-// Errors of MPI itself end all processes, as its default is.
+// Errors of MPI itself end all processes, which is its default.
 MpiSession::MpiSession() {
   int provided = MPI_THREAD_SINGLE;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);

@@ -8,19 +8,19 @@
 
 namespace carom {
 
-// MPI from construction to destruction. Threads may run beside the one that made it; it alone calls MPI.
+// MPI is initialised from construction to destruction. Only the thread that constructs the session may call MPI.
 class MpiSession {
  public:
-  // Throws RunError where this MPI does not allow threads.
+  // Throws RunError if this MPI does not support threads.
   MpiSession();
   MpiSession(const MpiSession&) = delete;
   MpiSession& operator=(const MpiSession&) = delete;
   ~MpiSession();
 
-  // Ends all processes at once, with this status: some of them can go on, others cannot.
+  // Ends all processes at once, with this status: for errors after which only some of them could go on.
   [[noreturn]] void abort(int status) const;
 
-  // All processes that were started together. The session outlives them.
+  // All processes that were started together. The session must outlive the result.
   std::unique_ptr<Ranks> ranks() const;
 };
 

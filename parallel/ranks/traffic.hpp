@@ -1,4 +1,4 @@
-// What a rank gives to the others: counted, and how long it took. Nothing that is computed depends on it.
+// Counts of the messages of a rank, and the time that they took. No result depends on them.
 #pragma once
 
 #include "core/base/types.hpp"
@@ -15,11 +15,11 @@ struct Messages {
   }
 };
 
-// Of one rank: messages to a neighbour; and calls in which all take part, each with the bytes that the rank gives to
-// it, however often MPI passes them on.
+// For one rank: messages to neighbours; and collective calls, each with the bytes of this rank's entry, however often
+// MPI passes them on.
 struct Traffic {
   Messages exchange, all_reduce, gather;
-  double seconds = 0.0;  // in all these, waiting for other ranks included
+  double seconds = 0.0;  // in all of these, including the time spent waiting for other ranks
 
   Messages all() const {
     Messages sum = exchange;
@@ -29,7 +29,7 @@ struct Traffic {
   }
 };
 
-// What there is more in `now` than in `before`.
+// The difference between `now` and `before`.
 inline Traffic traffic_since(const Traffic& before, const Traffic& now) {
   const auto more = [](const Messages& b, const Messages& n) {
     return Messages{n.messages - b.messages, n.bytes - b.bytes};

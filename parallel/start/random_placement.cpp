@@ -13,20 +13,21 @@ namespace carom {
 
 namespace {
 
-// A batch is this share of the disks, so that few of it get into each other's way, and fits into a core's own cache.
+// A batch is this share of the disks, so that few disks of it conflict, and it fits into a core's own cache.
 constexpr std::size_t batches = 64;
 constexpr std::size_t smallest_batch = 64, largest_batch = 32768;
 
 constexpr std::size_t range_of_members = 512;  // a task of the parallel search
 
-// Disks searched for at the same time by one thread: while memory answers for one, the others' points are drawn.
+// Disks for which one thread searches at the same time: while memory is read for one, points of the others are drawn.
 constexpr std::size_t lanes = 32;
 
 constexpr std::size_t range_of_voxels = 16384;
 constexpr std::size_t voxels_at_once = 16 * range_of_voxels;
 constexpr std::size_t voxels_per_member = 256;
 
-// Trials after which a disk is left to the plain search, which may learn more for it, and knows when to give up.
+// Trials after which a disk is left to the serial search, which may update the free places for it, and decides when to
+// give up.
 constexpr std::uint64_t patience = trials_between_lessons;
 
 // The first point of a member that no disk placed before the batch covers.
@@ -36,12 +37,12 @@ struct Candidate {
   bool found = false;
 };
 
-// A search in batches. The point that the plain search takes for a disk is the first of its sequence that none of the
-// disks before it covers. For a batch, all threads find the first points that are free of the disks placed so far:
-// points before those are refused whatever the batch does. Then the few whose point another of the batch covers are
-// searched for again in their order, until each has the first point that is free of all disks before it; that is the
-// definition, so neither batches nor threads can change a bit. What the plain search does between two disks (learn more
-// of the free places, give up) ends a batch.
+// A search in batches. By definition, a disk takes the first point of its sequence that no disk before it covers. For a
+// batch, all threads find the first points that are free of the disks placed so far; points before those would be
+// rejected in any case. Then, in order, the few disks whose point is covered by another disk of the batch go on to the
+// first point that is free of all disks before them. The result is that of the definition, so neither batches nor
+// threads can change a bit. If the serial search would do something between two disks (update the free places, give
+// up), the batch ends there.
 class BatchSearch {
  public:
   BatchSearch(const Executor& executor, PlacementSearch& search) : executor_(executor), search_(search) {}
@@ -53,7 +54,7 @@ class BatchSearch {
     for (first_ = search_.begin; first_ < search_.end;) {
       if (watch) watch();
       while (search_.lesson_due(first_)) learn();
-      if (search_.list && search_.list->empty()) search_.place_one(first_);  // says so
+      if (search_.list && search_.list->empty()) search_.place_one(first_);  // throws: there is no room
       listed_ = search_.list ? &*search_.list : nullptr;
       const std::size_t count = std::min({most, search_.end - first_, batch_of_list()});
       find_candidates(count);
@@ -78,7 +79,7 @@ class BatchSearch {
       for (const auto& part : survivors_of(0, list.size())) survivors.insert(survivors.end(), part.begin(), part.end());
       return search_.refine(std::move(survivors));
     }
-    // In place, as two lists at a time would be the most memory that a run ever needs.
+    // In place: two lists at a time would need more memory than anything else in a run.
     std::size_t kept = 0;
     for (std::size_t first = 0; first < list.size(); first += voxels_at_once) {
       const std::size_t count = std::min(voxels_at_once, list.size() - first);
@@ -95,7 +96,7 @@ class BatchSearch {
     return parts;
   }
 
-  // Where few places are left, a large batch would only get into its own way.
+  // If few places are left, most disks of a large batch would conflict.
   std::size_t batch_of_list() const {
     return search_.list ? std::max(smallest_batch, search_.list->size() / voxels_per_member) : largest_batch;
   }
@@ -130,7 +131,7 @@ class BatchSearch {
     }
   }
 
-  // One trial of each lane, in stages, each of which asks for the memory of the next.
+  // One trial of each lane, in stages, each of which prefetches the memory of the next.
   void try_once(std::span<Lane> all) const {
     const Domain& box = search_.scene.box;
     const bool listed = listed_ != nullptr;
@@ -162,13 +163,14 @@ class BatchSearch {
     return !(nearest_distance2({other.x - point.x, other.y - point.y}, search_.scene.box) < contact * contact);
   }
 
-  // Is k's point covered by one before it in the batch?
+  // Is the point of disk k covered by a disk before it in the batch?
   bool covered(std::size_t k, Vec2 point) const {
     const double radius = radius_of(k);
     return cells_.any_near(point, [&](std::uint32_t other) { return other < k && !apart(other, point, radius); });
   }
 
-  // Gives each disk of the batch its final point; returns how many have one, up to the first that found none.
+  // Gives each disk of the batch its final point; returns how many have one, up to the first that found none within
+  // `patience`.
   std::size_t settle_conflicts(std::size_t count) {
     std::size_t whole = 0;
     cells_.clear();
@@ -199,7 +201,7 @@ class BatchSearch {
     return whole;
   }
 
-  // The next point of k that is free of all before it; false when patience ends.
+  // Moves disk k on to its next point that is free of all disks before it; false if `patience` trials are exceeded.
   bool move_on(std::size_t k) {
     Candidate& c = candidates_[k];
     std::array<Lane, 1> lane;
@@ -213,13 +215,13 @@ class BatchSearch {
     return false;
   }
 
-  // Places the first `settled` of the batch, and at least one; returns how many.
+  // Places the first `settled` disks of the batch, but at least one; returns their number.
   std::size_t commit(std::size_t settled) {
     for (std::size_t k = 0; k < settled; ++k) {
       const Candidate& c = candidates_[k];
       if (k > 0 && search_.lesson_due(first_ + k)) return k;
       if (search_.trials + c.trial >= search_.most) {
-        search_.place_one(first_ + k);  // says so
+        search_.place_one(first_ + k);  // may throw: there is no room
         return k + 1;
       }
       search_.count(c.trial);

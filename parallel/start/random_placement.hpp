@@ -12,13 +12,13 @@
 
 namespace carom {
 
-// What core's place_at_random gives, bit for bit, on any number of threads. watch is called between batches of disks
-// and may be empty; what it throws ends the placing.
+// place_at_random of core, with the same bits on any number of threads. watch, if not empty, is called between batches
+// of disks; an exception thrown by it ends the placing.
 void parallel_place_at_random(const Executor& executor, const Scene& scene, Disks& disks, PlacementGrid& grid,
                               std::vector<std::uint32_t> members, const std::function<void()>& watch = {});
 
-// initial_state of core, with this placing and growth on as many threads. watch is told how placing and growth go on,
-// and may be empty; what it throws ends them. threads >= 1.
+// initial_state of core, with placing and growth on `threads` (>= 1) threads. watch, if not empty, is called with the
+// progress of placing and growth; an exception thrown by it ends them.
 State parallel_initial_state(const Scene& scene, int threads,
                              const std::function<void(const GrowthProgress&)>& watch = {});
 
