@@ -79,7 +79,7 @@ class SummedFile {
   std::string chunk_;
 };
 
-// Record and state as bytes: each list of the state from its pieces, in place of what the state's part has of it.
+// Writes record and state as bytes. The entries of each list come from its pieces, not from state.part().
 void write_content(const ByteWriter::Sink& sink, const RunRecord& record, const StatePieces& state) {
   const auto write_list = [&](StateList list) {
     const std::uint64_t entries = state.entries(list);
@@ -134,7 +134,7 @@ void check_frame(const Header& header, const Tail& tail, std::uint64_t size, con
   }
 }
 
-// Reads the file once from end to end. Returns the size of its content when all of it is as it was written.
+// Reads the whole file once. Returns the size of its content, if the checksum is right.
 std::uint64_t verified_content(std::ifstream& file, const std::string& path) {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
@@ -160,7 +160,7 @@ std::uint64_t verified_content(std::ifstream& file, const std::string& path) {
   return tail.bytes;
 }
 
-// What must hold of any state. Only a bug in the program that wrote the file can break it.
+// Checks that hold for every state; only a bug in the program that wrote the file can break them.
 void check_state(const State& state) {
   const Disks& d = state.disks;
   const DiskColumns columns = columns_of(d);
@@ -176,7 +176,7 @@ void check_state(const State& state) {
   if (hits > state.next_id) throw BadBytes("has reflections of disks that were never made");
 }
 
-// Files lie in the run's folder, nowhere else.
+// Checks that all files lie in the run's folder.
 void check_names(const OutputMark& mark) {
   for (const MarkedFile& file : files_of(mark)) {
     const bool plain = !file.name.empty() && file.name.find('/') == std::string::npos && file.name != "..";
@@ -184,7 +184,7 @@ void check_names(const OutputMark& mark) {
   }
 }
 
-// then(): what else may find bad bytes.
+// then(): a further step that may throw BadBytes.
 template <class Then>
 void decode_into(Checkpoint& checkpoint, ByteReader reader, const std::string& name, Then&& then) {
   try {
@@ -204,7 +204,7 @@ Checkpoint decode(ByteReader reader, const std::string& name) {
   return checkpoint;
 }
 
-// Where a column of the disks is noted; null: the list is another one.
+// The entry for this list, if it is a column of the disks; else null.
 StoredColumn* column_for(const void* list, Disks& disks, StoredColumns& columns) {
   StoredColumn* found = nullptr;
   std::size_t k = 0;

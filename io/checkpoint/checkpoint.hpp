@@ -1,4 +1,4 @@
-// Checkpoints: everything from which a run goes on, bit for bit, in one file that is whole or refused.
+// Checkpoints: all that a run needs to continue bit for bit, in one file, which is read only if it is intact.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@
 
 namespace carom {
 
-// What belongs to a run beside its state.
+// The data of a run apart from its state.
 struct RunRecord {
   std::string version;     // of the program that wrote it
   std::string scene_file;  // as the user named it
@@ -23,11 +23,11 @@ struct RunRecord {
   RunStart start;
   OutputMark outputs;
   double wall_s = 0.0, cpu_s = 0.0, step_s = 0.0;  // spent so far, as in the summary
-  Count resumed = 0;                               // how often the run went on from a checkpoint
+  Count resumed = 0;                               // number of times that the run was resumed
   std::vector<std::string> warnings;               // of its start; the others are in the state
 };
 
-// Of one that a program saved, from a simulation that is no run: without any outputs so far, and no wall time.
+// Was it saved by a program that uses the library, not by a run? Such a record has no outputs and no wall time.
 inline bool is_of_program(const RunRecord& record) {
   return !(record.wall_s > 0.0);
 }
@@ -37,8 +37,8 @@ struct Checkpoint {
   State state;
 };
 
-// Writes the file and returns when it is on the disk itself. Throws RunError. Of a state in pieces, one is in memory at
-// a time, and the file is that of the whole state.
+// Writes the file and returns when it is on the disk. Throws RunError. Only one piece of the state is in memory at a
+// time; the file does not depend on the division into pieces.
 void write_checkpoint(const std::string& path, const RunRecord& record, const StatePieces& state);
 void write_checkpoint(const std::string& path, const RunRecord& record, const State& state);
 
@@ -46,22 +46,22 @@ void write_checkpoint(const std::string& path, const RunRecord& record, const St
 // what is wrong", for a file that is cut short, changed in any bit, of another byte order or format, or no checkpoint.
 Checkpoint read_checkpoint(const std::string& path);
 
-// The same, but for its disks, which stay in the file and are read from there.
+// The same without the disks, which are read from the file when needed.
 struct CheckpointInPieces {
   Checkpoint checkpoint;
   std::unique_ptr<DiskSource> disks;
 };
 CheckpointInPieces read_checkpoint_in_pieces(const std::string& path);
 
-// Is there a file of this name that is neither a checkpoint, of any version, nor empty? Pipes and devices are no files.
+// Is there a regular file of this name that is neither empty nor a checkpoint of any version?
 bool is_another_file(const std::string& path);
 
-// A checkpoint in memory: the bytes of the file, and back. name is for messages. Throws InputError as read_checkpoint
-// does.
+// A checkpoint in memory: the bytes of the file, and their inverse. name: for messages. Throws InputError as
+// read_checkpoint does.
 std::string checkpoint_bytes(const RunRecord& record, const State& state);
 Checkpoint checkpoint_from_bytes(std::string_view bytes, const std::string& name);
 
-// The part of a checkpoint behind its checksum, from memory, for the fuzzer. Throws InputError.
+// Decodes the content of a checkpoint without testing the checksum, for the fuzzer. Throws InputError.
 Checkpoint decode_checkpoint(std::string_view bytes, const std::string& name);
 std::string encode_checkpoint(const RunRecord& record, const StatePieces& state);
 std::string encode_checkpoint(const RunRecord& record, const State& state);

@@ -1,6 +1,5 @@
-// Everything that a checkpoint holds, struct by struct. Each is taken apart by a structured binding, which does not
-// compile any more when a member is added: a new member is written here too, and the format's number goes up
-// (checkpoint.cpp).
+// The content of a checkpoint, struct by struct. Each is taken apart by a structured binding, which fails to compile if
+// a member is added: then add it here, too, and increase the format's number (checkpoint.cpp).
 #pragma once
 
 #include "io/checkpoint/checkpoint.hpp"

@@ -24,8 +24,8 @@ void save_checkpoint(const std::string& folder, const RunRecord& record, const S
     fs::remove(beside, error);  // a full disk needs the room
     throw;
   }
-  // A hard link to the newest, so that it always has a name. Where the file system has no hard links, there is a moment
-  // in which only the previous is there.
+  // A hard link keeps the newest checkpoint under a name at every moment. On file systems without hard links, there is
+  // a moment in which only the previous one exists.
   fs::remove(previous, error);
   fs::create_hard_link(newest, previous, error);
   if (error && fs::exists(newest)) fs::rename(newest, previous, error);
@@ -82,11 +82,11 @@ auto read_at(const CheckpointPlace& place, Read&& read) {
     return read(place.file.string());
   } catch (const InputError& error) {
     const fs::path previous = place.file.parent_path() / previous_checkpoint_name;
-    if (place.file.filename() != checkpoint_name) throw;  // none was written before it: it is that, or another file
+    if (place.file.filename() != checkpoint_name) throw;  // there is no previous one for such a file
     try {
       read_checkpoint(previous.string());
     } catch (const InputError&) {
-      // Of one that this program cannot read the message says what can.
+      // For a checkpoint of another version the message names the program that can read it.
       if (std::string_view(error.what()).find("is damaged") == std::string_view::npos) throw error;
       throw InputError(fmt::format("{}; there is no whole one before it, so run the scene again", error.what()));
     }

@@ -1,6 +1,6 @@
-// Where the outputs of a run stand at a checkpoint. Every output offers two things: mark(), which brings what it has
-// written onto the disk and says where it is, and a constructor that takes a mark, cuts off what came after it and goes
-// on. A new kind of output needs a mark here and a line in checkpoint_fields.hpp.
+// The positions of the outputs of a run at a checkpoint. Every output has a function mark(), which writes its data to
+// the disk and returns its position, and a constructor from a mark, which cuts off all later data and continues. A new
+// kind of output needs a mark here and a line in checkpoint_fields.hpp.
 #pragma once
 
 #include <cstdint>
@@ -16,21 +16,21 @@
 
 namespace carom {
 
-// All outputs of a run. What a scene does not ask for is absent.
+// All outputs of a run; those that the scene does not ask for are absent.
 struct OutputMark {
   Count frames = 0;
   double last_time = 0.0;  // simulated time of the last frame
   std::optional<FileMark> trajectory;
   std::optional<SeriesMark> series;
-  MeterMark meter;  // for a trajectory that shows what series.csv would
+  MeterMark meter;  // for the observables of trajectory.h5
   std::optional<MovieMark> movie;
   VelocityRecord velocities;
   EnergyRecord energies;
-  std::optional<AnalysisRecord> analysis;  // the file is made anew from it
-  DisplacementTally rounds;                // of the disks in a trajectory, round the periodic sides
+  std::optional<AnalysisRecord> analysis;  // analysis.h5 is written anew from it
+  DisplacementTally rounds;                // of the disks in a trajectory, across periodic sides
 };
 
-// A file (or the folder "frames") that must be there for a run to go on, with so many bytes or more.
+// A file (or the folder "frames") that a resumed run needs, with at least this size.
 struct MarkedFile {
   std::string name;
   std::uint64_t bytes = 0;

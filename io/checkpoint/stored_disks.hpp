@@ -1,4 +1,4 @@
-// The disks of a checkpoint, left in its file and read some at a time.
+// The disks of a checkpoint, read from its file in pieces.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace carom {
 
-// Where a column lies in the file. No bytes: the disks have none, or there are no disks.
+// The position of a column in the file. 0 bytes: the column does not exist, or there are no disks.
 struct StoredColumn {
   std::streamoff begin = 0;
   std::uint64_t bytes = 0;
@@ -21,7 +21,7 @@ struct StoredColumn {
 // In the order of for_each_column.
 using StoredColumns = std::array<StoredColumn, count_columns()>;
 
-// What a file has whose column is not of its disks.
+// The description of a column that does not fit the disks.
 template <class T>
 const char* misfit(const DiskColumn<T>& column) {
   return column.flag == &DiskColumns::spin ? "has spins of other disks" : "has columns of different lengths";
@@ -29,14 +29,14 @@ const char* misfit(const DiskColumn<T>& column) {
 
 class StoredDisks final : public DiskSource {
  public:
-  // none: what the disks share, without a disk; name: of the file, for messages. Throws BadBytes where the columns are
-  // not of the same disks, or a disk has not been made when `next_id` was next.
+  // none: no disks, but their shared numbers; name: of the file, for messages. Throws BadBytes if the columns have
+  // different lengths, or a disk has an id that is not below next_id.
   StoredDisks(std::ifstream file, std::string name, const StoredColumns& columns, const Disks& none, DiskId next_id);
 
   std::size_t size() const override { return size_; }
   bool has_radii() const override { return present_.radius; }
   bool has_masses() const override { return present_.mass; }
-  // Throws RunError where the file can be read no more.
+  // Throws RunError if the file can no longer be read.
   Disks read(std::size_t begin, std::size_t end) override;
 
  private:

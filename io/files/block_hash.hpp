@@ -7,8 +7,9 @@
 
 namespace carom {
 
-// A 64-bit hash of words of 8 bytes in the machine's order. Each word enters by a bijection of the 64 bits so far, so
-// two inputs that differ in one word never have the same hash; others do with probability 2^-64. 4 GB a second.
+// A 64-bit hash of words of 8 bytes in the machine's order. Each word is combined by a bijection of the hash so far, so
+// two inputs that differ in one word never have the same hash; other inputs have it with probability 2^-64. 4 GB a
+// second.
 class BlockHash {
  public:
   // Precondition: bytes is a multiple of 8.

@@ -1,5 +1,5 @@
-// Plain values as bytes and back, for checkpoints: numbers as they lie in memory, lists with their lengths in front.
-// A struct is written and read by one function, fields(stream, value), so that the two cannot differ.
+// Writes plain values as bytes and reads them, for checkpoints: numbers as they lie in memory, lists preceded by their
+// lengths. A struct is written and read by one function, fields(stream, value), so that the two cannot differ.
 #pragma once
 
 #include <array>
@@ -18,12 +18,12 @@ namespace carom {
 template <class T>
 concept Number = (std::is_arithmetic_v<T> && !std::same_as<T, bool>) || std::is_enum_v<T>;
 
-// T is U, const or not: what one fields() for writing and reading is declared with.
+// T is U or const U; for the declaration of a fields() that both writes and reads.
 template <class T, class U>
 concept Is = std::same_as<std::remove_const_t<T>, U>;
 
-// Hands the bytes to `sink`, in any pieces. writes(list), where given: hands a list, with its length in front, to the
-// sink itself and returns true, or leaves it to the writer.
+// Passes the bytes to `sink`, in any pieces. writes(list), if given, may pass a list, preceded by its length, to the
+// sink itself and return true; if it returns false the writer does so.
 class ByteWriter {
  public:
   using Sink = std::function<void(const char*, std::size_t)>;
@@ -77,14 +77,14 @@ class ByteWriter {
   ListWriter writes_;
 };
 
-// The bytes do not say what was expected of them.
+// Thrown if the bytes do not have the expected content.
 struct BadBytes : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Takes bytes from `source`, `left` of them in all. Throws BadBytes rather than read beyond them, or make a list longer
-// than what is left. passes(list, bytes), where given: takes so many bytes of a list of numbers from the source itself,
-// so that the list stays empty, and returns true; or leaves it to the reader.
+// Reads bytes from `source`, `left` of them in all. Throws BadBytes instead of reading beyond them, or making a list
+// longer than the bytes left. passes(list, bytes), if given, may skip the bytes of a list of numbers in the source
+// itself, so that the list stays empty, and return true; if it returns false the reader reads the list.
 class ByteReader {
  public:
   using Source = std::function<void(char*, std::size_t)>;
@@ -105,7 +105,7 @@ class ByteReader {
     left_ -= bytes;
     source_(static_cast<char*>(data), bytes);
   }
-  // Every entry takes a byte or more.
+  // Every entry takes at least one byte.
   std::size_t length(std::size_t bytes_each) {
     std::uint64_t entries = 0;
     get(entries);
@@ -145,7 +145,8 @@ class ByteReader {
       list.resize(entries);
       raw(list.data(), list.size() * sizeof(T));
     } else {
-      // Entries may be larger in memory than in the file: the list grows with what is read, not with what is promised.
+      // Entries may be larger in memory than in the file, so the list grows with the data read, not with the stored
+      // length.
       const std::size_t entries = length(1);
       list.clear();
       for (std::size_t k = 0; k < entries; ++k) get(list.emplace_back());

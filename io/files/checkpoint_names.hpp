@@ -1,4 +1,4 @@
-// What the checkpoints of a run are called.
+// The names of the checkpoint files of a run.
 #pragma once
 
 namespace carom {

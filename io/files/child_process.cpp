@@ -27,7 +27,7 @@ std::string find_program(const std::string& name) {
     const std::string candidate = fmt::format("{}/{}", rest.substr(0, end), name);
     std::error_code error;
     const bool is_file = std::filesystem::is_regular_file(candidate, error);  // folders can be "executed", too
-    // Where PATH names a folder by its way from here, the child, which starts in another one, would not find it.
+    // PATH may have relative folders, which the child, started in another folder, would not find.
     if (is_file && access(candidate.c_str(), X_OK) == 0) return std::filesystem::absolute(candidate).string();
     rest = end == std::string_view::npos ? std::string_view{} : rest.substr(end + 1);
   }
@@ -36,7 +36,7 @@ std::string find_program(const std::string& name) {
 
 namespace {
 
-// What the child starts with. Descriptors: 0 is our pipe, 1 and 2 the log; all of ours are close-on-exec.
+// The settings of a new child. Its descriptor 0 is our pipe, 1 and 2 are the log; all of ours are close-on-exec.
 struct SpawnSettings {
   SpawnSettings(int input, const std::string& folder, const std::string& log_path, ChildSignals signals) {
     posix_spawnattr_init(&attributes);
@@ -95,7 +95,7 @@ void end_with_parent() {
   const std::string wanted = parent;
   unsetenv(parent_name);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
-  // It may have died before; then nothing will come.
+  // The parent may have died before; then no signal would come.
   if (fmt::format("{}", getppid()) != wanted) std::raise(SIGTERM);
 }
 

@@ -1,4 +1,4 @@
-// Where one output of a run stands at a checkpoint.
+// The position of one output of a run at a checkpoint.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace carom {
 
-// A file that grows by frames. bytes is its length, 0 for a format that counts in frames alone.
+// A file that grows by frames. bytes: its length; 0 for a format that needs only the number of frames.
 struct FileMark {
   std::string name;  // in the run's folder
   Count frames = 0;
@@ -24,7 +24,7 @@ struct IntervalMeans {
   double shear_stress = 0.0;    // energy / area
 };
 
-// What the means of the next row start from, and those of the last one.
+// The counters at the last row, from which the next means start, and the last means.
 struct MeterMark {
   double counted_until = 0.0;
   Counters before;
@@ -40,7 +40,7 @@ struct MovieMark {
   Count frames = 0;
   bool single_frames = false;      // PNG files in place of a movie
   std::vector<std::string> parts;  // files, each a movie, that make up all frames so far
-  double low = 0.0, high = 1.0;    // the colour scale, which the first frame set
+  double low = 0.0, high = 1.0;    // the ends of the colour scale, set by the first frame
   int time_decimals = 2;
 };
 

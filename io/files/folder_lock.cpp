@@ -16,9 +16,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A record lock belongs to the process alone, so no child inherits it, not even between its fork and its exec, and it
-// ends with the process however that ends. The process loses it when it closes any descriptor of the file, so it opens
-// no second one: it keeps a list of the files that it holds. A program may run scenes on several threads.
+// The files that this process has locked. A record lock belongs to the process, so no child inherits it, and it ends
+// with the process in any case. The process also loses it by closing any descriptor of the file; this list keeps it
+// from opening a second one. A mutex protects the list, since a program may run scenes on several threads.
 struct LocksHeld {
   std::mutex mutex;
   std::vector<fs::path> files;

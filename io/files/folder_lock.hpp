@@ -1,4 +1,4 @@
-// Two programs that write into one folder would spoil each other's files.
+// Locks a folder, so that no two programs write into it.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@ namespace carom {
 
 inline constexpr const char* folder_lock_name = "lock";
 
-// Holds a folder by a lock on this file in it: until it is given up, this object goes, or the process ends.
+// A lock on a file in the folder, held until it is released, this object is destroyed, or the process ends.
 class FolderLock {
  public:
   FolderLock() = default;
@@ -15,8 +15,8 @@ class FolderLock {
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
-  // Precondition: it holds none. False where another one has the folder, of this process or of another, or had it and
-  // has just taken it away. File systems without locks have none, and let all have it.
+  // Returns false if another object, of this or another process, has the folder, or had it and has just taken it away. On
+  // file systems without locks always true. Precondition: this object holds no folder.
   [[nodiscard]] bool take(const std::filesystem::path& folder);
   void give_up();
 
@@ -25,7 +25,7 @@ class FolderLock {
   int descriptor_ = -1;         // of file_; -1: nothing is held
 };
 
-// Is this folder held now, by this process or by another?
+// Is this folder locked now, by this process or another?
 bool is_locked(const std::filesystem::path& folder);
 
 }  // namespace carom

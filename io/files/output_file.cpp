@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t buffer_bytes = std::size_t{1} << 18;  // large enough that the system call costs nothing
 
-// Pipes and some network file systems have no fsync; nothing else can be done for them.
+// Pipes and some network file systems have no fsync; that is no error.
 bool cannot_sync(int error) {
   return error == EINVAL || error == EROFS || error == ENOTSUP;
 }

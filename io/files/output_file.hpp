@@ -1,4 +1,4 @@
-// A file being written, with every error seen: a full disk shows as an exception, never as a short file.
+// A file to be written, with every error checked: a full disk gives an exception, never a short file.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ class OutputFile {
   // Creates or truncates the file. Children do not inherit the descriptor.
   explicit OutputFile(std::string path);
 
-  // Goes on with a file that is there: cuts it back to its first `bytes` and writes behind them. Throws InputError if
-  // it is missing or shorter than that.
+  // Continues an existing file: cuts it to its first `bytes` bytes and writes after them. Throws InputError if it is
+  // missing or shorter than that.
   OutputFile(std::string path, std::uint64_t bytes);
 
   OutputFile(const OutputFile&) = delete;
@@ -24,16 +24,16 @@ class OutputFile {
 
   void write(std::string_view text);
 
-  // Hands what is buffered to the system, so that a reader of the growing file sees whole records.
+  // Passes buffered data to the system, so that readers of the growing file see whole records.
   void flush();
 
-  // Flushes, and returns when the disk itself has everything: from here on not even a power cut takes it away.
+  // Flushes, and returns when all data are on the disk and survive a power cut.
   void sync();
 
-  // How long the file is, buffered text included. Known after close() as well.
+  // The length of the file, including buffered data; also valid after close().
   std::uint64_t bytes() const { return bytes_; }
 
-  // Flushes and closes. Throws RunError where something is not written; the destructor does not.
+  // Flushes and closes. Throws RunError if data cannot be written; the destructor does not throw.
   void close();
 
   const std::string& path() const { return path_; }
@@ -47,21 +47,21 @@ class OutputFile {
   std::uint64_t bytes_ = 0;
 };
 
-// Throws InputError where path is no file of at least so many bytes (0: where there is nothing); changes nothing.
+// Throws InputError unless path is a file of at least so many bytes (0: any existing path). Changes nothing.
 void check_at_least(const std::string& path, std::uint64_t bytes);
 
-// Returns when a file that another library wrote, or the entries of a folder (new files, new names), are on the disk
-// itself. Throws RunError.
+// Returns when a file that another library wrote, or the entries of a folder (new files, new names), are on the disk.
+// Throws RunError.
 void sync_path(const std::string& path);
 
-// The whole text as a file. Throws RunError.
+// Writes the text as a file. Throws RunError.
 void write_file(const std::string& path, std::string_view text);
 
-// Gives a file another name, in place of the file that had it; devices and pipes, which all programs share, stay.
-// Throws RunError, "cannot write TO: why".
+// Renames a file, and replaces an existing file of that name, but never a device or a pipe. Throws RunError, "cannot
+// write TO: why".
 void rename_file(const std::string& from, const std::string& to);
 
-// As write_file, by way of PATH.new, so that a failure leaves what was there before. Throws RunError.
+// As write_file, through PATH.new, so that a failure leaves an existing file unchanged. Throws RunError.
 void replace_file(const std::string& path, std::string_view text);
 
 }  // namespace carom

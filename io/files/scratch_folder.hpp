@@ -1,14 +1,14 @@
-// A folder for files that nobody keeps.
+// A temporary folder.
 #pragma once
 
 #include <filesystem>
 
 namespace carom {
 
-// A new folder, which goes away with this object and with everything in it.
+// A new folder, which is removed with all its files when this object is destroyed.
 class ScratchFolder {
  public:
-  // Makes parent/name-XXXXXX, the six letters such that there was none. Throws RunError where that cannot be done.
+  // Makes a new folder parent/name-XXXXXX, with six random letters. Throws RunError if that fails.
   ScratchFolder(const std::filesystem::path& parent, const char* name);
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;

@@ -1,14 +1,14 @@
-// Words of commands that messages and scripts give a shell.
+// Quotes words of shell commands in messages and scripts.
 #pragma once
 
 #include <string>
 
 namespace carom {
 
-// In a shell's single quotes.
+// The text in single quotes.
 std::string quoted_for_shell(const std::string& text);
 
-// The same, but as it stands where a shell takes it for one word and nothing else.
+// The same, but without quotes if the shell reads the text as one plain word.
 std::string shell_word(const std::string& text);
 
 }  // namespace carom

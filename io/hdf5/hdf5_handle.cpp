@@ -4,7 +4,7 @@ namespace carom {
 
 namespace {
 
-// HDF5 packs the system's word into the middle of its own: "..., error message = 'No space left on device', buf = ...".
+// HDF5 has the system's message within its own: "..., error message = 'No space left on device', buf = ...".
 herr_t take_reason(unsigned /*depth*/, const H5E_error2_t* error, void* to) {
   auto& reason = *static_cast<std::string*>(to);
   const std::string text = error->desc == nullptr ? "" : error->desc;
@@ -13,9 +13,9 @@ herr_t take_reason(unsigned /*depth*/, const H5E_error2_t* error, void* to) {
   if (at != std::string::npos) {
     const std::size_t begin = at + mark.size();
     reason = text.substr(begin, text.find('\'', begin) - begin);
-    return 1;  // the system's word is the best there is
+    return 1;  // the system's message is the best one
   }
-  if (reason.empty()) reason = text;  // the innermost of HDF5's own
+  if (reason.empty()) reason = text;  // the innermost message of HDF5 itself
   return 0;
 }
 

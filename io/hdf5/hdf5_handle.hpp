@@ -1,5 +1,5 @@
-// HDF5's identifiers with an owner each, and what HDF5 says of its errors. Includes HDF5's own header: for the files
-// that read and write HDF5 alone.
+// Owners for HDF5's identifiers, and the messages of HDF5's errors. Includes HDF5's own header, so it is only for files
+// that read and write HDF5.
 #pragma once
 
 #include <hdf5.h>
@@ -9,7 +9,7 @@
 
 namespace carom {
 
-// An open file, group, dataset, space, type or list of properties, closed with the object.
+// Owns an open file, group, dataset, space, type or list of properties, and closes it.
 class Hdf5Handle {
  public:
   using Close = herr_t (*)(hid_t);
@@ -28,10 +28,10 @@ class Hdf5Handle {
   hid_t get() const { return id_; }
   bool valid() const { return id_ >= 0; }
 
-  // Forgets it without closing.
+  // Releases it without closing.
   void abandon() { id_ = -1; }
 
-  // Closes now; negative where HDF5 could not.
+  // Closes now; negative if HDF5 fails.
   herr_t close() { return id_ < 0 ? 0 : close_(std::exchange(id_, -1)); }
 
  private:
@@ -39,14 +39,14 @@ class Hdf5Handle {
   Close close_ = nullptr;
 };
 
-// Before anything else: HDF5 prints its errors on standard error unless that is switched off; and at exit it would try
-// once more to write what a full disk did not take, and crash over it.
+// To be called before any other use of HDF5. Without it HDF5 prints its errors on standard error; and after a full disk
+// it would try to write again at exit, and crash.
 inline void silence_hdf5() {
   H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-// What the last failed call says of the system's part in it ("No space left on device"), or of its own.
+// The reason of the last failed call: the system's message ("No space left on device"), or else HDF5's.
 std::string hdf5_reason();
 
 }  // namespace carom

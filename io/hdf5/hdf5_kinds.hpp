@@ -5,7 +5,7 @@
 
 namespace carom {
 
-// Little-endian in the file on every machine. Where nothing was written a double is NaN and a count 0.
+// Little-endian in the file on every machine. The fill values are NaN for doubles and 0 for counts.
 Hdf5Kind double_kind();
 Hdf5Kind count_kind();  // std::int64_t
 

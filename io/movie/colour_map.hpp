@@ -9,7 +9,7 @@ struct Colour {
 
 inline constexpr int viridis_stops = 8;  // equal parts in which it is a straight line
 
-// Dark violet at 0 over blue and green to yellow at 1; values outside are taken as the nearer end.
+// From dark violet at 0 through blue and green to yellow at 1; values outside have the colour of the nearer end.
 Colour viridis(double value);
 
 }  // namespace carom

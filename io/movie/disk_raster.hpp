@@ -1,4 +1,4 @@
-// Filling disks into an image, quickly: a million disks take a few milliseconds where a vector library takes seconds.
+// Draws filled disks into an image: a million disks take a few milliseconds, with a vector library seconds.
 #pragma once
 
 #include <algorithm>
@@ -20,16 +20,17 @@ struct PixelArea {
 
 inline constexpr double rim_width = 1.0;  // pixels
 
-// The rim of a disk of this radius (pixels), as a share of its own colour: dark around large ones, as a rim on small
-// disks would be all one sees; and in between no step, by which some disks of a mixture would stand out.
+// The brightness of the rim of a disk of this radius (pixels), as a share of its colour. Large disks have a dark rim;
+// small ones have none, since one would see nothing else. It changes continuously, so that no disks of a mixture stand
+// out.
 inline double rim_shade(double radius) {
   constexpr double smallest_rimmed = 3.0, fully_rimmed = 6.0, darkest = 0.35;
   const double strength = std::clamp((radius - smallest_rimmed) / (fully_rimmed - smallest_rimmed), 0.0, 1.0);
   return 1.0 - strength * (1.0 - darkest);
 }
 
-// Fills the disk with centre (x, y) and radius r, in pixels, with smooth edges; large ones get a dark rim, so that
-// disks in contact stay apart to the eye. A disk smaller than a pixel tints the pixels around it by its area.
+// Fills the disk with centre (x, y) and radius r, in pixels, with smooth edges; large disks get a dark rim, so that
+// disks in contact can be told apart. A disk smaller than a pixel tints the pixels around it in proportion to its area.
 void fill_disk(const PixelArea& area, double x, double y, double r, const Colour& colour);
 
 }  // namespace carom

@@ -14,9 +14,9 @@ struct AnalysisCurve {
   bool in_time = false;
 };
 
-// What the file has of g(r), S(k), speeds, density, profiles, displacement, autocorrelation, order, pressure and
-// collision rate; of a longer curve evenly chosen points, at most so many (>= 2), and its name says so. Throws
-// InputError where the file cannot be read.
+// The curves in the file: g(r), S(k), speeds, density, profiles, displacement, autocorrelation, order, pressure and
+// collision rate. A curve with more than most_points (>= 2) points is thinned evenly, and its name says so. Throws
+// InputError if the file cannot be read.
 std::vector<AnalysisCurve> read_analysis_curves(const std::string& path, std::size_t most_points);
 
 }  // namespace carom

@@ -26,7 +26,7 @@ namespace carom {
 // and the standard error of the mean by blocking (blocking_error.hpp); of the displacement, the diffusion coefficient
 // of its second half with its error (diffusion_fit.hpp).
 //
-// Writes the file beside and renames it, so that a whole one is there at any moment. Throws RunError.
+// Writes a new file and renames it, so that an intact one exists at any moment. Throws RunError.
 void write_analysis(const std::string& path, const Scene& scene, const AnalysisRecord& record);
 
 }  // namespace carom

@@ -1,4 +1,4 @@
-// What docs/scene.md says of a column of series.csv.
+// The description of a column of series.csv, for docs/scene.md.
 #pragma once
 
 namespace carom {

@@ -1,4 +1,4 @@
-// What series.csv and trajectory.h5 tell of each group that has a name.
+// The columns of series.csv and trajectory.h5 for groups with a name.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace carom {
 
-// A column's name is this one's, an underscore, and the group's. docs/scene.md has them from here.
+// The full name of a column is this name, an underscore, and the group's name. docs/scene.md is made from this list.
 struct GroupColumn {
   std::string name;
   bool whole;  // a count
@@ -24,17 +24,17 @@ class GroupMeter {
  public:
   explicit GroupMeter(const Scene& scene);
 
-  // Group by group; none where no block of the scene has a name.
+  // The columns, group by group; none if no block of the scene has a name.
   std::vector<GroupColumn> columns() const;
 
   bool empty() const { return groups_.empty(); }
 
-  // The disks of one frame, a value a column. What is made of velocities is NaN for Brownian motion.
+  // The values of one frame, one for each column. Quantities from velocities are NaN with Brownian motion.
   std::vector<double> row(const DisksInPieces& disks) const;
   std::vector<double> row(const Disks& disks) const { return row(WholeDisks(disks, 0.0)); }
 
  private:
-  // use(g, disks, members) for each group and each piece: those of its disks that are there, in order of id.
+  // Calls use(g, disks, members) for each group and each piece; members: its disks in the piece, in order of id.
   template <class Use>
   void visit(const DisksInPieces& disks, const Use& use) const;
   std::vector<GroupMotion> motions(const DisksInPieces& disks) const;

@@ -1,4 +1,4 @@
-// What series.csv and trajectory.h5 tell of the rotation of rough disks.
+// The columns of series.csv and trajectory.h5 for the rotation of rough disks.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ inline constexpr ColumnText rotation_columns[] = {
      "mean of I w^2 of a disk, 0 without disks; that of the motion of the centres is `kinetic` over `disks`"},
 };
 
-// Names of the scene's columns, none where disks are smooth; and their values, in the same order, where they are rough.
+// The names of the columns, none if disks are smooth; and their values, in the same order.
 std::vector<std::string> rotation_column_names(const Scene& scene);
 std::vector<double> rotation_column_values(const DisksInPieces& disks, const BlockRunner& run);
 

@@ -17,7 +17,7 @@ namespace carom {
 
 namespace {
 
-// What a row says of all disks together, from pieces of them.
+// The sums over all disks for a row, from pieces of them.
 struct RowTally {
   BlockedTally kinetic, potential, rotational, px, py;
   BlockedTally relative, flow;  // in a sheared box, of velocities relative to the flow
@@ -55,8 +55,8 @@ std::string heading_of(const Scene& scene) {
   return heading;
 }
 
-// Rows of other columns would make a table of no use, as where an earlier version began it. A file that is missing or
-// short is found out by who opens it.
+// Throws InputError if the file has other columns, for example because another version began it. A missing or short
+// file is detected when it is opened.
 const std::string& with_heading(const std::string& path, const Scene& scene) {
   std::ifstream file(path);
   std::string heading;

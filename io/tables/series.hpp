@@ -1,4 +1,4 @@
-// series.csv: the run in numbers, one row a frame.
+// series.csv: a table of the run, one row for each frame.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@
 
 namespace carom {
 
-// The columns of series.csv after the time, and the observables of trajectory.h5. docs/scene.md has them from here.
+// The columns of series.csv after the time, and the observables of trajectory.h5. docs/scene.md is made from this list.
 struct SeriesColumn {
   const char* name;
   bool whole;  // a count
@@ -56,7 +56,7 @@ inline constexpr std::array<SeriesColumn, 18> series_columns{{
     {"force_top", false, "force", "likewise on the ceiling"},
 }};
 inline constexpr const char* displacement_column = "displacement";  // behind them, where [analysis] asks for it
-// Then one a sink: its name is this one's, an underscore, and the sink's.
+// Then a column for each sink; its full name is this name, an underscore, and the sink's name.
 inline constexpr ColumnText taken_column{"removed_by", "", "disks that a sink has taken, since the start"};
 using SeriesRow = std::array<double, series_columns.size()>;  // counts are exact up to 2^53
 
@@ -66,7 +66,8 @@ inline constexpr std::size_t overlap_column = 10;  // max_overlap
 
 class SeriesMeter {
  public:
-  // The largest overlap needs a search among all disks, many times the cost of all the rest; without it the row has 0.
+  // with_overlap: the largest overlap needs a search over all disks, which costs many times more than all other
+  // columns; without it the column is 0.
   SeriesMeter(const Scene& scene, bool with_overlap, const MeterMark& from = {})
       : box_(scene.box),
         gravity_(scene.physics.gravity),
@@ -74,14 +75,14 @@ class SeriesMeter {
         drawn_(velocities_are_drawn(scene)),
         done_(from) {}
 
-  // Disks at the time of a frame, and what `now` has counted. An exact run counts to the end of its window,
-  // which may lie a little after the frame; intervals are taken between the states, so that no collision is lost or
+  // The row of a frame: disks at its time, and the counters of `now`. An exact run counts to the end of its window,
+  // which may lie a little after the frame; means are over the time between two states, so that no collision is lost or
   // counted twice. pressure, collision_rate (per disk) and the four wall forces are means over the time since the row
   // before, and 0 in the first row; a row whose state is the one of the row before (a frame of the same window) repeats
-  // them. What is made of velocities is NaN for Brownian motion (core/scene/drawn_velocities.hpp).
+  // them. Quantities from velocities are NaN with Brownian motion (core/scene/drawn_velocities.hpp).
   SeriesRow row(const DisksInPieces& disks, const State& now, const BlockRunner& run = run_in_order);
 
-  // Of the last row, as shear_columns; only of a sheared box.
+  // The values of shear_columns in the last row; only for a sheared box.
   const std::array<double, shear_columns.size()>& shear_row() const { return shear_row_; }
 
   const MeterMark& mark() const { return done_; }
@@ -92,7 +93,7 @@ class SeriesMeter {
   Domain box_;
   Gravity gravity_;
   bool with_overlap_;
-  bool drawn_;  // what is made of velocities means nothing, and is NaN
+  bool drawn_;  // quantities from velocities are NaN
   MeterMark done_;
   std::array<double, shear_columns.size()> shear_row_{};
 };
@@ -102,12 +103,12 @@ class SeriesWriter {
   // Writes the heading. Throws RunError where the file cannot be written, here and below.
   SeriesWriter(const std::string& path, const Scene& scene);
 
-  // Goes on behind a mark in a file that is there; what follows it is cut off. Throws InputError where the file is
-  // shorter, or has other columns.
+  // Continues an existing file after a mark; later rows are cut off. Throws InputError if the file is shorter or has
+  // other columns.
   SeriesWriter(const std::string& path, const Scene& scene, const SeriesMark& from);
 
-  // One row, which it returns: see SeriesMeter::row. displacement: the mean square, a column where
-  // scene.analysis asks for it. The columns of groups with names come last.
+  // Writes a row and returns it (SeriesMeter::row). displacement: the mean square, a column if scene.analysis asks for
+  // it. The columns of groups with names come last.
   SeriesRow write(const DisksInPieces& disks, const State& now, double displacement = 0.0,
                   const BlockRunner& run = run_in_order);
   SeriesRow write(const Disks& disks, double time, const State& now, double displacement = 0.0,
@@ -115,7 +116,7 @@ class SeriesWriter {
     return write(WholeDisks(disks, time), now, displacement, run);
   }
 
-  // Where the file has come to; all up to there is on the disk.
+  // The present end of the file; all data before it are on the disk.
   SeriesMark mark();
 
   void close() { file_.close(); }

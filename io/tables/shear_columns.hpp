@@ -1,4 +1,4 @@
-// What series.csv tells of a shear flow.
+// The columns of series.csv for a shear flow.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// What series.csv tells of sides, and of a thermostat, that give energy.
+// The columns of series.csv for sides, inner walls and a thermostat that give energy.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace carom {
 
-// A column's name is this one's, an underscore, and the side's.
+// The full name of a column is this name, an underscore, and the side's name.
 inline constexpr ColumnText heat_column{
     "heat", "energy", "that a thermal side has given to the disks since the start; its slope is the flow of heat"};
 
@@ -27,15 +27,14 @@ inline constexpr ColumnText wall_columns[] = {
 inline constexpr ColumnText thermostat_column{"thermostat_heat", "energy",
                                               "that the thermostat has given to the disks since the start"};
 
-// What a scene has of them.
+// The energy sources of a scene.
 struct EnergySources {
   Domain box;
   bool thermostat = false;
   explicit EnergySources(const Scene& scene) : box(scene.box), thermostat(scene.physics.thermostat.acts()) {}
 };
 
-// The names of the scene's columns, none where no side is thermal or moves and there is no thermostat; and their
-// values, in the same order.
+// The names of the columns for these sources, and their values, in the same order.
 std::vector<std::string> side_column_names(const EnergySources& sources);
 std::vector<double> side_column_values(const EnergySources& sources, const Counters& counters);
 
