@@ -60,7 +60,7 @@ void BorderPass::collect(std::uint32_t b, const std::vector<Region>& regions) {
   if (regions.size() > 1) of_region(regions[border.wraps ? 0 : b + 1]);
 }
 
-// Does the disk surely list disks of its own border alone?
+// Is it certain that the disk lists only disks of its own border?
 bool BorderPass::lists_are_inside(const Border& border, std::uint32_t i) const {
   const auto [first, last] = std::pair(border.region.first_disk, border.region.last_disk);
   const ListRows& rows = lists_.rows();

@@ -1,4 +1,5 @@
-// What regions leave over of a slice: the events of the disks whose motion is not known, border by border.
+// Processes the events of a slice that regions had to leave: those of disks whose motion depends on other regions,
+// border by border.
 #pragma once
 
 #include <cstdint>
@@ -30,11 +31,11 @@ class BorderPass {
 
   // Processes the events of the slice that regions left over. per_disk: events per disk and unit of time, about.
   void run(const std::vector<Region>& regions, double per_disk);
-  // Has the pass found the window void?
+  // Has the pass found that the window is invalid?
   bool ended() const;
 
-  // After the slice, on one thread: relists disk i if it has moved further than a disk at a border may have when a
-  // slice begins.
+  // After the slice, on one thread: relists disk i if it has moved further than a disk at a border may have at the
+  // start of a slice.
   void relist_if_far(std::uint32_t i);
 
   // Disks that came to be at a border in the slice, and disks that now list one at a border.

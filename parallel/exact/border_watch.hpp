@@ -1,4 +1,4 @@
-// For measurements: what regions have left to the borders between them in a slice.
+// For measurements: the work that regions have left to the borders between them in a slice.
 #pragma once
 
 #include <functional>

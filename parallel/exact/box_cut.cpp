@@ -8,10 +8,10 @@ namespace {
 
 // Steps along a side in which disks are counted.
 constexpr std::size_t steps = 8192;
-// So many disks, spread over all, tell well enough where to cut.
+// A sample of so many disks is enough to choose the cuts.
 constexpr std::size_t most_counted = 0x100000;
 
-// Along each axis, the work of the disks in each step.
+// The work of the disks in each step along each axis.
 struct WorkAlong {
   std::vector<double> x, y;
 };

@@ -1,4 +1,4 @@
-// The box cut into parts with about as much work each: into pieces along either axis.
+// The box, cut along both axes into parts of about equal work.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace carom {
 
-// How many pieces along either axis.
+// The number of pieces along each axis.
 struct PieceCounts {
   std::size_t x = 1, y = 1;
 
@@ -35,18 +35,18 @@ struct AxisCut {
   // Is there another piece below or above this one?
   bool has_below(std::size_t piece) const { return piece > 0 || is_ring(); }
   bool has_above(std::size_t piece) const { return piece + 1 < pieces() || is_ring(); }
-  // The pieces next to this one; itself where there is none.
+  // The pieces next to this one; the piece itself if there is none.
   std::size_t below(std::size_t piece) const {
     return !has_below(piece) ? piece : piece == 0 ? pieces() - 1 : piece - 1;
   }
   std::size_t above(std::size_t piece) const {
     return !has_above(piece) ? piece : piece + 1 == pieces() ? 0 : piece + 1;
   }
-  // The piece that owns what is at a coordinate. Rounding may have led a disk out of a box between walls.
+  // The piece that owns a coordinate. (By rounding a disk may be slightly outside a box between walls.)
   std::size_t piece_at(double c) const {
     return static_cast<std::size_t>(std::upper_bound(line.begin() + 1, line.end() - 1, c) - line.begin()) - 1;
   }
-  // Is a coordinate beyond an end of the piece, by no more than this?
+  // Is a coordinate beyond an end of the piece, by at most `halo`?
   bool in_halo(std::size_t piece, double c, double halo) const {
     const double b = round_the_box(low(piece) - c);
     const double a = round_the_box(c - high(piece));
@@ -55,23 +55,23 @@ struct AxisCut {
 
  private:
   bool is_ring() const { return periodic && pieces() > 1; }
-  // From an end to what is beyond it; negative where it is not.
+  // A difference d, wrapped across the period: the distance beyond an end of a piece, negative if not beyond it.
   double round_the_box(double d) const { return periodic && d < 0.0 ? d + side : d; }
 };
 
-// Part k is what piece k % (pieces along x) along x and piece k / (pieces along x) along y have in common.
+// Part k is the intersection of piece k % (pieces along x) along x and piece k / (pieces along x) along y.
 struct BoxCut {
   AxisCut x, y;
-  double halo = 0.0;  // how wide halos are; length
+  double halo = 0.0;  // width of halos; length
 
   std::size_t parts() const { return x.pieces() * y.pieces(); }
   std::size_t column(std::size_t part) const { return part % x.pieces(); }
   std::size_t row(std::size_t part) const { return part / x.pieces(); }
   std::size_t part_of(std::size_t column, std::size_t row) const { return row * x.pieces() + column; }
-  // The part that owns what is at a place.
+  // The part that owns a place.
   std::size_t part_at(Vec2 at) const { return part_of(x.piece_at(at.x), y.piece_at(at.y)); }
 
-  // Calls visit(part) for the part that owns a place, first, and for each one that has it in its halo.
+  // Calls visit(part) first for the part that owns a place, then for each part whose halo contains it.
   template <class Visit>
   void visit_parts_at(Vec2 at, Visit&& visit) const {
     const Pieces columns = pieces_at(x, at.x);
@@ -81,16 +81,16 @@ struct BoxCut {
     }
   }
 
-  // Where a part ends, and which parts are round it.
+  // The ends of a part, and the parts around it.
   PartEnds ends_of(std::size_t part) const;
 
  private:
-  // The one that owns a coordinate, and those that have it in their halos.
+  // The piece that owns a coordinate, and those whose halos contain it.
   struct Pieces {
     std::array<std::size_t, 3> piece;
     std::size_t count = 1;
   };
-  // Pieces are at least as wide as a halo, so that those next to the owner alone may have it.
+  // Pieces are at least as wide as a halo, so only those next to the owner may contain it in theirs.
   Pieces pieces_at(const AxisCut& axis, double c) const {
     const std::size_t own = axis.piece_at(c);
     Pieces found{{own}, 1};
@@ -105,8 +105,8 @@ struct BoxCut {
   }
 };
 
-// How much work the disks of a former cut were: work[k] for each disk of part k, in any unit. Without parts, 1 for each
-// disk.
+// The work for each disk, measured with a former cut: work[k] for each disk of part k, in any unit. Without parts, 1
+// for each disk.
 struct PartWork {
   BoxCut cut;
   std::vector<double> work;
@@ -114,14 +114,14 @@ struct PartWork {
   double at(Vec2 place) const { return work.empty() ? 1.0 : work[cut.part_at(place)]; }
 };
 
-// The pieces that make so many parts, of those ways that leave all of them at least `least` halos wide, with the fewest
-// ghosts if disks are spread evenly; a single part where there is no such way. halo: length.
+// The division into this number of parts that has the fewest ghosts for evenly spread disks, among those whose pieces
+// are at least `least` halos wide; a single part if there is none. halo: length.
 PieceCounts best_pieces(std::size_t parts, const Domain& box, double halo, double least);
-// How many disks the parts have together, over those of the box.
+// The number of disks of all parts, ghosts included, over that of the box.
 double share_with_ghosts(PieceCounts pieces, const Domain& box, double halo);
 
-// Cuts the box into at most so many pieces along either axis. halo: length. Pieces are at least as wide as a halo;
-// where they would not be, there are fewer.
+// Cuts the box into at most these numbers of pieces. halo: length. Pieces are at least as wide as a halo; if necessary
+// there are fewer.
 BoxCut cut_box(const Disks& disks, const Domain& box, PieceCounts pieces, double halo, const PartWork& before = {});
 
 }  // namespace carom

@@ -10,7 +10,7 @@
 
 namespace carom {
 
-// Is every stored cell in this span, of so many cells along the side, which may go on at its other end?
+// Does this span contain all stored cells? cells: along the side, at whose other end the span may continue.
 inline bool has_all_stored(StoredCells stored, std::uint32_t cells, Span span) {
   const std::uint32_t ahead =
       stored.first >= span.first ? stored.first - span.first : cells - span.first + stored.first;
@@ -36,7 +36,7 @@ inline Span stored_span(StoredCells stored, std::uint32_t cells, Span span) {
 template <class Visit>
 void for_each_cell_block(const GridLevel& level, Span rows, Span columns, Visit&& visit) {
   for (std::uint32_t left = columns.count, column = columns.first; left > 0;) {
-    // Up to the end of the band or of the box.
+    // Up to the end of the band, or of the box.
     const std::uint32_t width = std::min({left, level.columns - column, level.columns_left_in_band(column)});
     const std::uint32_t column_key = level.first_key + level.key_of_column(column);
     for (std::uint32_t above = rows.count, row = rows.first; above > 0;) {

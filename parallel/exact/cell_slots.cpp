@@ -12,8 +12,8 @@ namespace carom {
 
 namespace {
 
-// Which of a cell's slots, with these disks, has this one; slots_a_cell if none has. Which one it is is as good
-// as random: a loop would take a branch that often goes wrong.
+// The slot of a cell that has this disk; slots_a_cell if none has. Its number is practically random, so a loop would
+// have a branch that is often mispredicted.
 inline std::uint32_t place_of(const std::uint32_t* slot, std::uint32_t disk) {
 #if defined(__SSE2__)
   static_assert(slots_a_cell == 8);

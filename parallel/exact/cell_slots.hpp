@@ -1,5 +1,5 @@
-// Which disks lie in which cell, by their listed positions: a few slots for each cell, so that disks can come and go,
-// and cells can be searched, without following links.
+// The disks of each cell, by their listed positions: a few slots for each cell, so that disks can be inserted, removed
+// and searched without following links.
 #pragma once
 
 #include <algorithm>
@@ -16,14 +16,14 @@ class CellSlots {
  public:
   static constexpr std::uint32_t none = empty_slot;
 
-  // Empties all cells. cells_a_part successive cells are a part, which is for one thread at a time. unequal_radii:
-  // slots hold radii too.
+  // Empties all cells. cells_a_part successive cells form a part, which only one thread at a time may change.
+  // unequal_radii: slots hold radii, too.
   void begin(std::uint32_t cells, std::uint32_t cells_a_part, bool unequal_radii);
 
-  // radius: in the kernel's unit of length, rounded up a little (NeighbourLists::radius_in_units); ignored where all
-  // are equal.
+  // radius: in the kernel's unit of length, rounded up a little (NeighbourLists::radius_in_units); ignored if all are
+  // equal.
   [[gnu::hot]] void insert(std::uint32_t cell, std::uint32_t disk, SlotPosition position, float radius);
-  // Takes the disk out of the cell that it is in.
+  // Removes the disk from its cell.
   [[gnu::hot]] void remove(std::uint32_t cell, std::uint32_t disk);
 
   SlotColumns columns() const { return {cells_.data(), radius_.empty() ? nullptr : radius_.data()}; }
@@ -35,7 +35,7 @@ class CellSlots {
     for (std::uint32_t cell = first; cell < last; ++cell) __builtin_prefetch(cells + cell);
     __builtin_prefetch(chain_.data() + first);
   }
-  // May disks be chained to some of the cells of a block? Nothing is read of cells from `end` on.
+  // May disks be chained to some of the cells of a block? Reads nothing of cells from `end` on.
   [[gnu::always_inline]] bool may_be_chained(const CellBlock& block, std::uint32_t end) const {
     const std::uint32_t* const chain = chain_.data();
     end = std::min(end, static_cast<std::uint32_t>(chain_.size()));

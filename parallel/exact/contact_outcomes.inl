@@ -1,4 +1,4 @@
-// What contacts do to disks: the part of EventProcessor that begins segments. Included by event_processor.cpp alone, so
+// The outcomes of contacts: the part of EventProcessor that begins segments. Included only by event_processor.cpp, so
 // that it is inlined there.
 #pragma once
 
@@ -81,7 +81,7 @@ inline void EventProcessor<scope>::collide_pair(std::uint32_t i, std::uint32_t j
   }
 }
 
-// collide_any_pair without what a scene with such pairs does not have.
+// collide_any_pair for kinds of pairs that need less.
 template <Scope scope>
 template <PairKind kind, class Flight>
 void EventProcessor<scope>::collide_smooth_pair(const Flight& flight, std::uint32_t i, std::uint32_t j, double time) {
@@ -171,8 +171,8 @@ inline void EventProcessor<scope>::begin_paths(std::uint32_t i, std::uint32_t j,
   }
 }
 
-// Part: marks a ghost that an own disk has met. What that disk does from now on is right only if the ghost came here as
-// its owner says.
+// Part: marks a ghost that an own disk has met. The own disk's path is right only if the ghost's path here was that in
+// its owner.
 template <Scope scope>
 inline void EventProcessor<scope>::note_contact(DiskRecord& a, DiskRecord& b) {
   const bool ghost = a.progress.has(DiskProgress::ghost);
@@ -181,7 +181,7 @@ inline void EventProcessor<scope>::note_contact(DiskRecord& a, DiskRecord& b) {
   (ghost ? a : b).progress.set(DiskProgress::met_own);
 }
 
-// Of disks i and j, under a law or the TC model, which approach as r says.
+// Restitution of disks i and j, whose relative motion is r, under a law or the TC model.
 template <Scope scope>
 PairRestitution EventProcessor<scope>::pair_restitution(std::uint32_t i, std::uint32_t j, double time,
                                                         const Relative& r) const {
@@ -208,7 +208,7 @@ void EventProcessor<scope>::tally_virials() {
   virial_count_ = 0;
 }
 
-// Logs the path on which the disk began the window, if it is still on it.
+// Logs the disk's first path of the window, if the disk is still on it.
 template <Scope scope>
 void EventProcessor<scope>::log_start(std::uint32_t i) {
   if (record_[i].version == 0) worker_.log.push_back({i, LoggedSegment::no_disk, record_[i].path});

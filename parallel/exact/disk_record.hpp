@@ -9,9 +9,8 @@
 
 namespace carom {
 
-// What a disk's next event is with: another disk; a side of the box, that is a wall, a sink, or a periodic side that it
-// crosses; an obstacle; its own neighbour list, when it is to be relisted; or nothing, when its events are to be
-// predicted again. 32 bits.
+// The partner of a disk's next event, in 32 bits: another disk; a side of the box (a wall, a sink, or a periodic side);
+// an obstacle; `relist`, if the disk has to be relisted; or `none`, if its events have to be predicted again.
 class Partner {
  public:
   constexpr Partner() = default;  // none
@@ -34,7 +33,7 @@ class Partner {
   constexpr bool is(std::uint32_t index) const { return bits_ == index; }
   // Of a disk.
   constexpr std::uint32_t index() const { return bits_; }
-  // The side of a wall; the place of an obstacle; of both, the id that stands for it in events.
+  // The side of a wall; the place of an obstacle; for both, their partner id in events.
   constexpr Side side() const { return wall_side(bits_); }
   constexpr std::uint32_t place() const { return obstacle_of(bits_); }
   constexpr DiskId wall_id() const { return bits_; }
@@ -52,9 +51,9 @@ static_assert(Partner::disk(first_obstacle_partner - 1).is_disk());
 static_assert(Partner::obstacle(0).is_obstacle() && !Partner::obstacle(0).is_disk() && !Partner::obstacle(0).is_wall());
 static_assert(Partner::obstacle(0).is_contact() && !Partner::wall(Side::left).is_obstacle());
 
-// With regions: how far a disk's motion is known in the present slice. An active disk: as far as events have been
-// processed. One at a border: up to the slice's start. A blocked one: up to its safe time within the slice, which is in
-// its BlockedDisk (worker.hpp). A disk also has marks. 32 bits.
+// With regions: up to which time a disk's motion is known in the present slice, in 32 bits. An active disk: as far as
+// events have been processed. A disk at a border: up to the slice's start. A blocked disk: up to its safe time within
+// the slice, which is in its BlockedDisk (worker.hpp). A disk also has marks.
 class DiskProgress {
  public:
   enum Mark : std::uint32_t {

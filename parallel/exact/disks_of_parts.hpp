@@ -1,4 +1,4 @@
-// Which disks each part of the box has.
+// The disks of each part of the box.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ struct DisksOfPart {
   std::size_t own = 0;
 };
 
-// Of each part of the cut. The same for any number of threads.
+// The disks of each part of the cut; the same for any number of threads.
 std::vector<DisksOfPart> disks_of_parts(const Disks& disks, const BoxCut& cut, const Executor& executor);
 
 }  // namespace carom

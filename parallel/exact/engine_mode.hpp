@@ -20,7 +20,7 @@ enum class EngineMode : std::uint8_t {
   regions,       // neighbour lists with a skin; an event calendar for each region of the box, on all threads
 };
 
-// The mode and what follows from it for the neighbour lists.
+// The mode, and the parameters of the neighbour lists that follow from it.
 struct ListLayout {
   EngineMode mode = EngineMode::single_queue;
   std::size_t disks_per_tile = 0;  // with regions
@@ -29,24 +29,24 @@ struct ListLayout {
   // whole skin. Less than 1 with regions: a disk at a border is not relisted within a slice, and must not leave its
   // skin in it.
   double relist_share = 1.0;
-  // Disks whose events come soon are prefetched, as a cache does not hold all.
+  // Prefetch disks whose events come soon, since a cache does not hold all.
   bool looks_ahead = false;
-  // How many disks there are in the whole box, where a rank or a part has but some of them; 0: it has all.
+  // The number of disks in the whole box, if a rank or a part has only some of them; 0: it has all.
   std::size_t disks_of_box = 0;
   // Then its disks lie about in the rectangle between these two places; along an axis on which low is not below high,
   // anywhere in the box. Lengths.
   Vec2 low{}, high{};
   // Then the largest radius in the whole box: lists of disks that are hardly smaller take up larger ones, too. Length.
   double largest_of_box = 0.0;
-  // By how much every radius may grow while lists are in use, which takes as much off the skin; length.
+  // The growth of every radius that lists allow for; it reduces the skin by as much; length.
   double growth = 0.0;
 };
 
-// With at most so many disks, listing all pairs is as fast as neighbour lists, and nothing has to be relisted in the
-// long windows of few disks.
+// Up to this number of disks, listing all pairs is as fast as neighbour lists, and needs no relisting in the long
+// windows of few disks.
 inline constexpr std::size_t all_pairs_up_to = 40;
-// With at most so many disks one queue on one thread is as fast as regions on two; the second where work is cut into
-// smaller blocks, as in tests.
+// Up to this number of disks one queue on one thread is as fast as regions on two threads; the second constant is used
+// where work is cut into smaller blocks, as in tests.
 inline constexpr std::size_t single_queue_up_to = 49152;
 inline constexpr std::size_t single_queue_of_cut_work_up_to = 8192;
 // The data of so many disks, 200 bytes each, fit in the second-level cache.
@@ -61,10 +61,10 @@ inline constexpr double rank_relist_share = 0.7;
 // The least width of a region, in mean spacings: in a narrower one, the disks that are blocked from one border and from
 // the other meet.
 inline constexpr double least_region_width = 30.0;
-// With more disks than this, memory that is not needed at present is given back.
+// With more disks than this, memory that is not needed at present is freed.
 inline constexpr std::size_t disks_of_much_memory = 65536;
 
-// How many regions of the least width fit along the box's longer side.
+// The number of regions of the least width along the box's longer side.
 inline std::size_t most_regions(std::size_t disks, const Domain& box) {
   const double aspect = std::max(box.width / box.height, box.height / box.width);
   return static_cast<std::size_t>(std::sqrt(aspect * static_cast<double>(disks)) / least_region_width);
@@ -78,14 +78,15 @@ inline ListLayout choose_layout(std::size_t disks, const Domain& box, bool regio
     check_all_listed(disks);
     return {.mode = EngineMode::all_pairs};
   }
-  // Where work is cut into smaller blocks, regions are wanted for fewer disks too, and more than one on one thread.
+  // Where work is cut into smaller blocks (tests), regions are used for fewer disks, too, and more than one of them on
+  // one thread.
   const bool is_cut = executor.grain(single_queue_up_to) < single_queue_up_to;
   const std::size_t single = is_cut                    ? executor.grain(single_queue_of_cut_work_up_to)
                              : executor.threads() == 1 ? disks
                                                        : single_queue_up_to;
   const std::size_t wanted = std::max<std::size_t>(static_cast<std::size_t>(executor.threads()), 2);
   const std::size_t regions = is_cut ? wanted : std::min(wanted, most_regions(disks, box));
-  // Regions know no images that move.
+  // Regions cannot handle moving images.
   if (!regions_allowed || box.shear.acts() || disks <= single || regions < 2) {
     return {.mode = EngineMode::single_queue, .looks_ahead = disks > executor.grain(disks_in_cache)};
   }

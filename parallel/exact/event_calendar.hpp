@@ -1,4 +1,4 @@
-// The event calendar: one entry a disk, the time of its next event. For all disks, or for those of a region.
+// The event calendar: one entry for each disk, the time of its next event. For all disks, or for those of a region.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,7 @@ namespace carom {
 // is in a calendar.
 struct CalendarEntry {
   double time = 0.0;
-  // For the calendar's use: the disks before and after this one on its page, or a mark in place of one. Without meaning
-  // between windows.
+  // For the calendar: the disks before and after this one on its page, or marks. Meaningless between windows.
   std::uint32_t previous = 0, next = 0;
 };
 static_assert(sizeof(CalendarEntry) == 16);
@@ -28,11 +27,10 @@ struct CalendarEntries {
   std::uint32_t end = 0;
 };
 
-// A calendar queue. The time from start to end is divided into pages; a page is a doubly linked list, in no order, of
-// the disks whose next event falls on it. The present page is searched whenever the first event is asked for; pages are
-// so short that it holds one or two. When a disk is predicted again its entry moves to another page, so that there are
-// no invalid entries. Where too many events fall on a page, pages are made shorter, and where that does not help the
-// page is sorted.
+// A calendar queue. The time from start to end is divided into pages; a page is a doubly linked, unordered list of the
+// disks whose next event falls on it. The present page is searched for its first event each time; pages are so short
+// that it holds one or two events. When a disk is predicted again its entry moves to another page, so there are no
+// invalid entries. If too many events fall on a page, pages are shortened; if that does not help, the page is sorted.
 //
 // Where there are many disks, neither a page nor the disks on it are in a cache. So an entry for a later page waits in
 // transit for some moves, until the page has been prefetched, and disks on pages that come soon are announced, so that
@@ -48,7 +46,7 @@ class EventCalendar {
   // calendar's use.
   void begin(double start, double end, const CalendarEntries& disks, std::size_t expected, bool many);
 
-  // Gives back the memory of the pages; begin() is next.
+  // Frees the memory of the pages; begin() must be called next.
   void release_memory();
 
   // Enters the disks with the times of their entries, before any event is asked for. `never` and other times beyond the
@@ -67,14 +65,14 @@ class EventCalendar {
       }
     }
   }
-  // Gives the disk's next event another time; a disk that was taken out is in the calendar again. comes_first: as in
-  // find_first. Always inlined, with what it calls: every collision calls it twice.
+  // Changes the time of the disk's next event; a disk that was taken out is entered again. comes_first: as in
+  // find_first. Always inlined, with the functions that it calls: every collision calls it twice.
   template <class ComesFirst>
   [[gnu::always_inline]] void move(std::uint32_t disk, double time, ComesFirst comes_first) {
     unlink(disk);
     put(disk, time, comes_first);
   }
-  // The same of a disk that is not in the calendar; with an event after the end it stays out.
+  // The same for a disk that is not in the calendar; with an event after the end it stays out.
   template <class ComesFirst>
   [[gnu::always_inline]] void enter(std::uint32_t disk, double time, ComesFirst comes_first) {
     if (time > end_) {

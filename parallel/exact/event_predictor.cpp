@@ -75,12 +75,12 @@ NextEvent EventPredictor::earliest_with_sides(std::uint32_t i) const {
   return comes_first(i, contact, best) ? contact : best;
 }
 
-// May images that move matter, those above and below a sheared box?
+// May moving images matter (above and below a sheared box)?
 bool EventPredictor::sees_moving_images(const ListRow& row) const {
   return window_->rules.box.shear.acts() && (far_ || (row.sides & ListRow::images_move) != 0);
 }
 
-// With core's formulas, which handle all images and ties.
+// By the formulas of core, which handle all images and ties.
 NextEvent EventPredictor::earliest_one_by_one(std::uint32_t i) const {
   const DiskRecord& own = window_->record[i];
   const ExactRules& rules = window_->rules;
@@ -108,8 +108,9 @@ NextEvent EventPredictor::earliest_one_by_one(std::uint32_t i) const {
   return best;
 }
 
-// The disk's first contact with an obstacle up to `end` or the horizon, where it comes before best. It may last where
-// the disk is so close to an obstacle, and so slow against it, that rounding decides whether they touch.
+// Replaces `best` by the disk's first contact with an obstacle, if that is earlier, and comes before `end` and the
+// horizon. The contact may be a lasting one if the disk is so close to the obstacle, and so slow relative to it, that
+// rounding decides whether they touch.
 void EventPredictor::see_obstacles(std::uint32_t i, double end, NextEvent& best) const {
   const DiskRecord& own = window_->record[i];
   const PathSegment& path = own.path;

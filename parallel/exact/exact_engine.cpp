@@ -31,11 +31,11 @@ namespace carom {
 
 namespace {
 
-// Disks that sources give in a window, above which one queue is faster than regions on two threads.
+// With more new disks than this in a window, one queue is faster than regions on two threads.
 constexpr double most_newcomers_of_regions = 0.5;
-// Where more than one of so many disks leave in a window, it takes less to make all lists anew than to take them out.
+// If more than one of so many disks leaves in a window, it is cheaper to make all lists anew than to remove them.
 constexpr std::size_t disks_per_leaver = 8;
-// Where a kick is for a larger share of the disks, predicting all of them takes as long.
+// If a kick changes a larger share of the disks, predicting all of them takes no longer.
 constexpr double most_kicked_share = 0.5;
 
 class ParallelExact final : public ExactFlights {
@@ -81,7 +81,7 @@ class ParallelExact final : public ExactFlights {
   State end_flight() override;
   double growth() const override { return allowed_growth_; }
   void visit_lists(const VisitList& visit) const override;
-  // Lists that are built from now on allow for it.
+  // Lists that are built from now on allow for this growth.
   void set_growth(double growth) {
     growth_ = growth;
     halos_.set_growth(growth);
@@ -131,7 +131,7 @@ class ParallelExact final : public ExactFlights {
   double allowed_growth_ = 0.0;  // likewise, after a flight
 };
 
-// Sources emit, Brownian disks draw their velocities; those that cross a sink unseen in the interval leave.
+// Sources emit, Brownian disks draw their velocities, and those that cross a sink within the interval are removed.
 void ParallelExact::start_window() {
   const PhaseTimer timer(times_, "start");
   take_out_leavers();
@@ -144,7 +144,7 @@ void ParallelExact::start_window() {
   kick_if_it_is_time();
 }
 
-// The thermostat's kick. Where it is for some of the disks alone, the others' events stay as they are.
+// The thermostat's kick. If it changes only some of the disks, the events of the others are kept.
 void ParallelExact::kick_if_it_is_time() {
   const bool for_some = kicked_share(scene_) < most_kicked_share && !scene_.box.shear.acts();
   kicked_.clear();
@@ -167,7 +167,7 @@ void ParallelExact::release_memory() {
 }
 
 bool ParallelExact::edit(const Edit& edit) {
-  // The paths of the last window no longer go with the disks.
+  // The paths of the last window no longer belong to the disks.
   logged_.reset();
   take_out_leavers();
   if (edit.kind == Edit::Kind::add) {
@@ -181,7 +181,7 @@ bool ParallelExact::edit(const Edit& edit) {
   return true;
 }
 
-// add() appends disks to the state. One queue's lists take them up; else all is made anew.
+// add() appends disks to the state. The lists of a single queue take them up; otherwise all lists are made anew.
 template <class Add>
 void ParallelExact::add_disks(const Add& add) {
   const Disks& d = state_.disks;
@@ -223,7 +223,7 @@ bool ParallelExact::visit_near(Vec2 centre, double half_width, double half_heigh
   return true;
 }
 
-// While sources emit, the lists know the disks that were there before.
+// While sources emit, the lists hold the disks that were there before.
 bool ParallelExact::has_room(const Disk& newcomer) const {
   const std::size_t listed = windows_.known() == Known::nothing ? 0 : windows_.window().record.size();
   bool met = meets(state_.disks, scene_.box, newcomer, listed, state_.disks.size());
@@ -280,8 +280,8 @@ void ParallelExact::build_lists_if_due(const WindowPlan& plan, bool regions_allo
   windows_.build_lists(plan, layout);
 }
 
-// Runs the window, in parts if it can; else the whole, again with a larger speed bound where a disk was too fast, and
-// shorter where it is crowded. False: given up; the state is as it was.
+// Runs the window, in parts if possible; otherwise as a whole, again with a larger speed bound if a disk was too fast,
+// and shorter if it is crowded. Returns false if it was interrupted; the state is then unchanged.
 bool ParallelExact::run_window_with_retry(WindowPlan& plan, const SpeedSummary& speeds) {
   in_parts_ = parts_allowed_ && halos_.are_wanted();
   if (!in_parts_) halos_.release_memory();

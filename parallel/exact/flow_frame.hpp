@@ -3,10 +3,10 @@
 
 namespace carom {
 
-// In a sheared box disks are listed by places in a frame that goes with the flow: x - tilt (y - h / 2) in place of x,
-// as the flow is at rest in the middle, with a tilt that grows at the shear rate. There the images above are at rest.
-// Two disks that touch are at most `stretch` times as far from each other in it as in the box, until the tilt has grown
-// by `strain` since the lists were built.
+// In a sheared box disks are listed by positions in a frame that moves with the flow: x - tilt (y - h / 2) in place of
+// x, with a tilt that grows at the shear rate (the flow is at rest at half the height). In this frame the images above
+// are at rest. Distances of touching disks are at most `stretch` times those in the box, until the tilt has grown by
+// `strain` since the lists were built.
 struct FlowFrame {
   bool acts = false;    // is the box sheared?
   double rate = 0.0;    // of the shear; 1 / time
@@ -17,7 +17,7 @@ struct FlowFrame {
   double strain = 0.0;
 
   double tilt_at(double s) const { return tilt + rate * s; }  // s: time in the window
-  // The place along x in this frame of what is here then; length.
+  // x in this frame of a place at time s; length.
   double carried_back(double x, double y, double s) const { return x - tilt_at(s) * (y - middle); }
 };
 

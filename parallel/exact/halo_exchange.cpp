@@ -1,4 +1,4 @@
-// What parts tell each other: after a slice where ghosts went, and between windows which disks become ghosts, and which
+// The exchange between parts: after a slice the paths of ghosts; between windows, which disks become ghosts, and which
 // ghosts become own disks.
 #include <algorithm>
 
@@ -13,7 +13,7 @@ namespace {
 // A ghost that is this far inside a part becomes one of its own disks; over the halo's width.
 constexpr double inside_share = 0.05;
 
-// Of columns that a scene may not have.
+// Compares entries of columns that may be absent.
 bool same_bits_at(const std::vector<double>& a, std::size_t i, const std::vector<double>& b, std::size_t k) {
   return a.empty() || same_bits(a[i], b[k]);
 }
@@ -34,7 +34,7 @@ void HaloPart::begin_window() {
   for (Ghost& ghost : ghosts_) ghost.more_paths = 0;
 }
 
-// Only this part's ghosts are changed, and only other parts' own disks are read, so that all parts may do it at once.
+// Changes only this part's ghosts and reads only other parts' own disks, so all parts may call it at the same time.
 void HaloPart::compare_with(const HaloParts& parts) {
   strays_.clear();
   inside_.clear();
@@ -93,7 +93,7 @@ void HaloPart::replace_path(Ghost& ghost, const HaloPart& owner) {
   strays_.push_back(ghost.index);
 }
 
-// How far outside of the part the disk is at the slice's end; negative inside.
+// The distance of the disk outside the part at the slice's end; negative inside.
 double HaloPart::beyond_end(const PathSegment& path) const {
   const WindowState& window = run_.window();
   const PathSegment p = carried_to(path, window.slice_stop(), window.rules.gravity);

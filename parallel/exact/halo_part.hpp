@@ -1,4 +1,4 @@
-// A part of the box in the exact engine, which a thread runs by itself: its own disks, and a halo of others' round it.
+// A part of the box in the exact engine, run by one thread: its own disks, and a halo of other parts' disks around it.
 #pragma once
 
 #include <cstddef>
@@ -29,10 +29,10 @@ struct LargestRadius {
 class HaloPart;
 using HaloParts = std::vector<std::unique_ptr<HaloPart>>;
 
-// A part has a copy of its disks, with lists, calendar and records of its own; one thread runs it as if there were no
-// other disks. As disks beyond the halo are missing, ghosts go wrong, from the halo's outer end inwards, but hardly
-// ever the part's own disks. Whether any has is asked after each slice of a window (HaloWindows). Unless a function
-// says otherwise, it may be called for all parts at the same time.
+// A part has a copy of its disks, with its own lists, calendar and records; one thread runs it as if there were no
+// other disks. Since disks beyond the halo are missing, ghosts become wrong, from the halo's outer edge inwards, but
+// hardly ever the part's own disks. After each slice of a window that is checked (HaloWindows). Unless stated
+// otherwise, a function may be called for all parts at the same time.
 class HaloPart {
  public:
   explicit HaloPart(const Scene& scene) : one_thread_(1), run_(scene, state_, one_thread_, times_) {}
