@@ -42,7 +42,7 @@ class StrictEngine final : public Engine {
 
  private:
   std::unique_ptr<Engine> engine_;
-  std::vector<std::string> warnings_;  // of the step that ended the run
+  std::vector<std::string> warnings_;  // raised by the step that ended the run
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// --strict: a run that leaves what its method can do right ends there.
+// --strict: a run ends at its first warning of validity.
 #pragma once
 
 #include <memory>
@@ -7,10 +7,10 @@
 
 namespace carom {
 
-// The same engine, whose step() throws PhysicsError with the first warning that it would have raised.
+// Wraps an engine: step() throws PhysicsError with the first warning that the step raises.
 std::unique_ptr<Engine> make_strict(std::unique_ptr<Engine> engine);
 
-// Throws PhysicsError with the first of them, if there is one.
+// Throws PhysicsError with the first of the warnings, if there are any.
 void fail_if_any(const std::vector<std::string>& warnings);
 
 }  // namespace carom

@@ -13,22 +13,20 @@ namespace carom {
 
 namespace {
 
-// Bytes, measured with 2 10^5 to 4 10^6 disks on 2 and 4 ranks (docs/scaling.md): what a process takes before it has a
-// disk, MPI included; for each of its disks, with its cells and the lists that it makes; and for a column that not all
-// scenes have.
+// Bytes, measured with 2 10^5 to 4 10^6 disks on 2 and 4 ranks (docs/scaling.md): of a process without disks, MPI
+// included; for each of its disks, with cells and lists; and for each entry of an optional column.
 constexpr double process_bytes = 31e6;
 constexpr double own_disk_bytes = 75.0;
 constexpr double column_bytes = 12.0;
-// Of exact: with its lists, its paths and its ghosts.
+// For each disk in exact, with lists, paths and ghosts.
 constexpr double exact_disk_bytes = 275.0;
-// Of rank 0 where it writes frames: HDF5, and pieces on their way; and for each disk of all ranks, how often it went
-// round.
+// Of rank 0 if it writes frames: HDF5 and the pieces received; and the rounds of each disk of all ranks.
 constexpr double frame_bytes = 20e6;
 constexpr double round_bytes = 8.0;
-// Where it draws a movie: two pictures and the fonts.
+// If it draws a movie: two pictures and the fonts.
 constexpr double picture_bytes = 10e6;
 
-// What rank 0 remembers of the first sample, for each disk of all ranks: places, with rounds, velocities, and
+// Bytes that rank 0 keeps of the first sample, for each disk of all ranks: positions, with rounds, velocities, and
 // psi6.
 double remembered_bytes(const Scene& scene) {
   constexpr double two_numbers = 16.0;
@@ -38,7 +36,7 @@ double remembered_bytes(const Scene& scene) {
          (plan.wants(Quantity::bond_autocorrelation) ? two_numbers : 0.0);
 }
 
-// Does [analysis] look for neighbours so far away, in slabs so thin, that they may be of ranks that are no neighbours?
+// Does [analysis] need neighbours at distances beyond the adjacent slabs?
 bool looks_beyond_neighbours(const Scene& scene, const SlabCut& cut, Count disks) {
   if (cut.ranks() <= 2) return false;
   const AnalysisPlan& plan = scene.analysis;
@@ -51,7 +49,7 @@ bool looks_beyond_neighbours(const Scene& scene, const SlabCut& cut, Count disks
   return reach >= cut.thinnest();
 }
 
-// Time spent on trying steps; seconds.
+// Time spent on trial steps; seconds.
 constexpr double traffic_trial = 0.3;
 
 }  // namespace

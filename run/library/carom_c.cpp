@@ -1,4 +1,4 @@
-// The C interface (include/carom/carom.h) on carom::Simulation: worlds made, stepped, changed and saved.
+// The C interface (include/carom/carom.h) on carom::Simulation: making, stepping, changing and saving worlds.
 #include <carom/carom.h>
 #include <fmt/format.h>
 
@@ -30,14 +30,14 @@ EngineChoice choice_of(const carom_options* options) {
   return choose_engine("parallel", chosen.threads == 0 ? std::nullopt : std::optional(chosen.threads));
 }
 
-// A new world with what make(engine) returns.
+// Makes a new world from the result of make(engine).
 template <class Make>
 carom_status made(const carom_options* options, carom_world** world, Make&& make) {
   if (world == nullptr) return CAROM_INPUT;
   *world = new (std::nothrow) carom_world;
   if (*world == nullptr) return CAROM_FAILED;
   return guarded(*world, [&] {
-    const FloatEnvironment environment;  // a scene's numbers are read with it too
+    const FloatEnvironment environment;  // also for reading the numbers of a scene
     (*world)->simulation.emplace(make(choice_of(options)));
     return CAROM_OK;
   });

@@ -1,4 +1,4 @@
-// The C interface (include/carom/carom.h) on carom::Simulation: what a program sees of a world, and asks about it.
+// The C interface (include/carom/carom.h) on carom::Simulation: reading the state of a world.
 #include <carom/carom.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ carom_disk as_c(const Disks& d, std::size_t i) {
   return {disk.x, disk.y, disk.vx, disk.vy, disk.radius, disk.mass, disk.id, disk.spin};
 }
 
-// put(k, disks, i) for the disks in order of id, into an array with so much room.
+// Fills an array of size `room` by put(k, disks, i), for the disks in order of id.
 template <class T, class Put>
 carom_status fill(const carom_world* world, T* array, std::size_t room, Put&& put) {
   return with(world, [&](const Simulation& s) {
@@ -34,7 +34,7 @@ carom_status fill(const carom_world* world, T* array, std::size_t room, Put&& pu
   });
 }
 
-// One of the energies; of a null world 0. NaN where memory for the order of its terms is missing.
+// One of the energies; 0 for a null world. NaN if there is no memory to sort the terms.
 double energy_in(const carom_world* world, double Energy::*which) {
   if (world == nullptr || !world->simulation || world->simulation->lost()) return 0.0;
   double energy = std::numeric_limits<double>::quiet_NaN();

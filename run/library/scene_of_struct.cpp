@@ -27,14 +27,14 @@ std::string_view side_name(int side, const char* what) {
   return name_in<3>({"wall", "periodic", "sink"}, side, what);
 }
 
-// A key and its number as TOML has them, every bit; nothing for one that is not given, which is 0.
+// A key and its number as TOML, with all bits; empty for 0, which means not given.
 std::string line(const char* key, double value) {
   if (value == 0.0) return "";
   if (!std::isfinite(value)) fail_input(key, fmt::format("is {}", value), "expected a finite number");
   return fmt::format("{} = {:.17e}\n", key, value);
 }
 
-// A number where it is one along -y, so that it is the scene that a file would say so.
+// A single number if gravity points along -y, as one would write it in a file.
 std::string gravity_line(const carom_scene& told) {
   if (told.gravity_x == 0.0) return line("gravity", told.gravity);
   for (const double g : {told.gravity_x, told.gravity}) {
@@ -45,7 +45,7 @@ std::string gravity_line(const carom_scene& told) {
 
 }  // namespace
 
-// Through the text, so that what is checked in a file is checked here, and a checkpoint's scene reads back.
+// The scene is made through its text, so that it is checked like a file, and can be read back from a checkpoint.
 Scene scene_of_struct(const carom_scene& told) {
   std::string text = fmt::format("seed = \"{}\"\n[box]\n", told.seed);
   text += line("width", told.width) + line("height", told.height);

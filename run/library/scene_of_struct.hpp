@@ -1,4 +1,4 @@
-// A scene from the C interface's struct.
+// Makes a scene from the struct of the C interface.
 #pragma once
 
 #include <carom/carom.h>
@@ -7,7 +7,7 @@
 
 namespace carom {
 
-// The scene that such a file would give, without disks. Throws InputError, as for a file.
+// The scene that a file with these values would give, without disks. Throws InputError as for a file.
 Scene scene_of_struct(const carom_scene& told);
 
 }  // namespace carom

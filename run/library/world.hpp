@@ -1,4 +1,5 @@
-// What the functions of carom.h share: the world behind a handle, and exceptions that become a status and a text.
+// Shared by the functions of carom.h: the world behind a handle, and the conversion of exceptions to a status and a
+// text.
 #pragma once
 
 #include <carom/carom.h>
@@ -16,11 +17,11 @@
 #include "core/base/short_number.hpp"
 #include "run/simulation/simulation.hpp"
 
-// The text of an error is no part of the world, and a call that only looks may set it.
+// The text of an error is mutable: functions with a const world may set it, too.
 struct carom_world {
-  std::optional<carom::Simulation> simulation;  // absent where it could not be made
+  std::optional<carom::Simulation> simulation;  // absent if it could not be made
   mutable std::string error;
-  std::vector<std::string> warnings;  // that were not taken yet, the next one last
+  std::vector<std::string> warnings;  // not taken yet, in reverse order
   std::string warning;
 };
 
@@ -32,7 +33,7 @@ inline constexpr const char* no_memory = "out of memory";
 
 inline carom_status fail(const carom_world* world, carom_status status, const char* what) {
   try {
-    world->error = one_line(what);  // that of a program's own exception may have several
+    world->error = one_line(what);  // the text of a program's own exception may have several lines
   } catch (const std::bad_alloc&) {
     world->error.clear();
   }
@@ -43,7 +44,7 @@ inline carom_status fail(const carom_world* world, const char* what) {
   return fail(world, CAROM_INPUT, what);
 }
 
-// work() returns a status; what it throws becomes one.
+// Returns the status of work(), or that of an exception thrown by it.
 template <class Work>
 carom_status guarded(const carom_world* world, Work&& work) {
   try {
@@ -63,7 +64,7 @@ carom_status guarded(const carom_world* world, Work&& work) {
   }
 }
 
-// work(simulation), on a world that is there, lost or not.
+// Calls work(simulation) for a world that exists, even if its state is lost.
 template <class World, class Work>
 carom_status with_any(World* world, Work&& work) {
   if (world == nullptr) return CAROM_INPUT;
@@ -71,7 +72,7 @@ carom_status with_any(World* world, Work&& work) {
   return guarded(world, [&] { return work(*world->simulation); });
 }
 
-// Likewise, but not on one whose state is lost.
+// The same, but an error if the world's state is lost.
 template <class World, class Work>
 carom_status with(World* world, Work&& work) {
   return with_any(world, [&](auto& simulation) {
@@ -80,7 +81,7 @@ carom_status with(World* world, Work&& work) {
   });
 }
 
-// value(simulation) of a world that is there and has a state, else 0. Precondition: value() does not throw.
+// value(simulation) if the world exists and has a state, else 0. Precondition: value() does not throw.
 template <class Value>
 auto value_of(const carom_world* world, Value&& value) noexcept {
   using Result = decltype(value(*world->simulation));

@@ -48,7 +48,7 @@ OutputFolder& CheckpointKeeper::folder() {
 
 bool CheckpointKeeper::look(const Engine& engine, double t_end, double step_s) {
   const double time = engine.progress().time;
-  if (time >= t_end) return true;  // the run is over, there is nothing to go on with
+  if (time >= t_end) return true;  // the run is over and needs no checkpoint
   const Wish wish = take_wish();
   const double now = seconds();
   if (wish == Wish::stop) {

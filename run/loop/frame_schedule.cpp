@@ -7,8 +7,8 @@ namespace carom {
 
 namespace {
 
-// k * every this close to t_end, in units of every, is t_end itself: 0.1 * 7 is not 0.7. A frame so short before the
-// last would show nothing new.
+// A time k * every this close to t_end, in units of every, counts as t_end, since 0.1 * 7 is not 0.7 and a frame so
+// shortly before the last one would show nothing new.
 constexpr double end_slack = 1e-6;
 
 }  // namespace
@@ -30,7 +30,7 @@ void FrameSchedule::made(double time) {
     return;
   }
   const double k = std::floor((time - start_) / every_ + std::max(slack_, end_slack)) + 1.0;
-  // An interval below the rounding of the time itself still moves on.
+  // Time advances even if the interval is below the rounding of the time.
   const double next = std::max(start_ + k * every_, std::nextafter(time, t_end_));
   next_ = next < t_end_ - end_slack * every_ ? next : t_end_;
 }

@@ -1,4 +1,4 @@
-// When frames are due: at the start, at every multiple of an interval from there on, and at the end.
+// The times of frames: the start, every multiple of an interval from there on, and the end.
 #pragma once
 
 #include <optional>
@@ -7,20 +7,20 @@
 
 namespace carom {
 
-// Frames at start + k * every for k = 0, 1, ..., and one at t_end. The times are of products, never sums of intervals,
-// so that the thousandth frame is as punctual as the first.
+// Frames at start + k * every for k = 0, 1, ..., and one at t_end. Times are products, never sums of intervals, so that
+// the thousandth frame is as exact as the first.
 class FrameSchedule {
  public:
-  // every > 0, or 0 for the first and the last frame only. slack is how much too early, in units of every, a state
-  // may be and still count: time stepping adds up dt and arrives at 0.3 as 0.29999999999999999, which must not wait
-  // for the next step.
+  // every > 0, or 0 for the first and the last frame only. slack: tolerance by which a state may be too early for a
+  // frame, in units of every. Time stepping may arrive at 0.29999999999999999 instead of 0.3, and that frame must not
+  // wait for the next step.
   FrameSchedule(double every, double t_end, double slack, double start = 0.0);
 
-  // Time of the next frame that is due in a run that has come to `now`, none if there is none yet.
+  // The time of the next frame, if it is due in a run that has come to `now`.
   std::optional<double> due(double now) const;
 
-  // A frame has been made of the state at `time` (the time asked for, or the step's end for time stepping). All frames
-  // due up to there are done, so that long steps do not show one state twice.
+  // To be called when a frame has been made of the state at `time` (the time asked for, or in time stepping the step's
+  // end). All frames due until then are done, so that long steps do not show a state twice.
   void made(double time);
 
  private:

@@ -22,14 +22,14 @@ double slack_of(const Scene& scene) {
   return scene.run.method == Method::exact ? 0.0 : slack;
 }
 
-// A function that gets the disks at times of its own.
+// A function that is called with the disks at times of its own schedule.
 struct Watcher {
   const std::function<void(const DisksInPieces&)>* look = nullptr;
   bool within_steps = false;  // are times within steps known?
   FrameSchedule schedule;
 
-  // The time at which it is due in a run that has come to `now`, if it is: where only the ends of steps are known, now,
-  // so that two for which one state serves have the same time, whatever rounding does to theirs.
+  // The time at which it is due, if it is, in a run that has come to `now`. If only the ends of steps are known, that
+  // is `now`, so that two watchers that get the same state get the same time, too.
   std::optional<double> due(double now) const {
     if (*look == nullptr) return std::nullopt;
     const std::optional<double> time = schedule.due(now);
@@ -44,7 +44,7 @@ Watcher watcher(const std::function<void(const DisksInPieces&)>& look, const Sce
   return w;
 }
 
-// Reads the clock and asks whether to go on during a step; either may end the batch of steps.
+// Reads the clock during a step, and asks whether to go on; either may end the batch of steps.
 class StepWatch {
  public:
   StepWatch(Engine& engine, const RunObserver& observer) : engine_(engine) {
@@ -88,7 +88,7 @@ class FrameMaker {
   void make_due() {
     const double now = engine_.progress().time;
     std::unique_ptr<DisksInPieces> disks;
-    std::optional<double> shown;  // the time asked for that they are of
+    std::optional<double> shown;  // the time for which the disks were asked
     while (due()) {
       const std::optional<double> times[] = {watchers_[0].due(now), watchers_[1].due(now)};
       const std::size_t first = !times[1] || (times[0] && *times[0] <= *times[1]) ? 0 : 1;
@@ -112,8 +112,8 @@ double run_to_end(Engine& engine, const Scene& scene, const RunObserver& observe
   if (!observer.frame && !observer.sample) engine.forget_paths();
   frames.make_due();
   double step_seconds = 0.0;
-  // Steps between two readings of the clock, each of which costs as much as a step of two disks. Their number depends
-  // on the machine's speed, but nothing that they compute does.
+  // Steps between two readings of the clock, which cost as much as a step of two disks. The number depends on the
+  // machine's speed, but no result depends on it.
   Count batch = 1;
   StepWatch watch(engine, observer);
   while (engine.progress().time < scene.run.t_end) {
@@ -131,7 +131,7 @@ double run_to_end(Engine& engine, const Scene& scene, const RunObserver& observe
     if (observer.stepped && !watch.stopped()) observer.stepped();
     if (observer.pulse && !observer.pulse(step_seconds)) break;
   }
-  // What is left to do has needs of its own: sums, checkpoints, plots.
+  // The work after the last step (sums, checkpoints, plots) needs memory, too.
   engine.release_memory();
   return step_seconds;
 }

@@ -1,4 +1,4 @@
-// From the first step to the last, with frames on the way.
+// Runs an engine from the first step to the last, with frames and samples in between.
 #pragma once
 
 #include <functional>
@@ -17,13 +17,13 @@ struct RunObserver {
   std::function<void(const DisksInPieces&)> sample;
   // After each step, and after the frames and moments that lie in it.
   std::function<void()> stepped;
-  // Between steps, about a hundred times a second, and once more at the end, with the seconds spent in steps so far.
-  // All frames that are due have been made then. Returns whether to go on.
+  // Called between steps, about a hundred times a second, and once more at the end, with the seconds spent in steps so
+  // far, when all due frames have been made. Returns whether to go on.
   std::function<bool(double)> pulse;
-  // Asked within long steps too, by any thread: may the step go on? Where not, the run stands where its last whole step
-  // ended, and pulse is asked.
+  // Called within long steps, by any thread: may the step go on? If not, the run returns to the end of its last whole
+  // step, and pulse is called.
   std::function<bool()> go_on;
-  // Time of the last frame (moment) that was made before, in a run that goes on from a checkpoint.
+  // In a resumed run: the time of the last frame (sample) before it.
   std::optional<double> last_frame, last_sample;
 };
 

@@ -7,7 +7,7 @@ namespace carom {
 
 namespace {
 
-// What a handler may touch has to be static: it is called with a number and nothing else.
+// The data of a signal handler have to be static: it is called with a number and nothing else.
 std::atomic<int> stop_signal = 0;
 std::atomic<int> checkpoint_wanted = 0;
 static_assert(std::atomic<int>::is_always_lock_free);  // as a handler needs
@@ -34,7 +34,7 @@ void catch_signals() {
     if (before.sa_handler == SIG_IGN) continue;
     struct sigaction action {};
     action.sa_handler = note_signal;
-    action.sa_flags = SA_RESTART;  // a write that is going on is not torn
+    action.sa_flags = SA_RESTART;  // a write in progress is not interrupted
     sigemptyset(&action.sa_mask);
     sigaction(signal, &action, nullptr);
   }

@@ -1,4 +1,4 @@
-// Signals as requests: what arrives during a run is noted and acted on between two steps; a stop also within long ones.
+// Signals as requests: a signal during a run is noted and acted on between two steps; a stop also within long steps.
 #pragma once
 
 #include <string_view>
@@ -11,9 +11,9 @@ enum class Wish {
   stop         // SIGINT, SIGTERM, SIGHUP, SIGXCPU (ulimit -t): write one and stop
 };
 
-// From here on the signals above no longer end the process, except a SIGINT after a stop has been requested: it ends
-// the process at once. Signals that the caller has ignored stay so (nohup, a shell's background jobs). To be called
-// before a run's first step; once more changes nothing.
+// From here on the signals above no longer end the process; but a SIGINT after a stop has been requested ends it at
+// once. Signals that the caller ignores stay ignored (nohup, background jobs of a shell). To be called before a run's
+// first step; further calls change nothing.
 void catch_signals();
 
 // The strongest request since the last call. A stop stays requested.

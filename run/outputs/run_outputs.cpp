@@ -93,12 +93,12 @@ RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, BlockRunn
 }
 
 bool RunOutputs::shows_rounds() const {
-  // In a shear flow a disk that goes up and down has not come back.
+  // In a shear flow rounds have no meaning: a disk that crosses the top and comes back has moved along x.
   return scene_.output.trajectory != TrajectoryFormat::none && !scene_.box.shear.acts() &&
          (scene_.box.periodic_x() || scene_.box.periodic_y());
 }
 
-// Groups have numbers where there are several, sources included.
+// The group column is written if there are several groups, sources included.
 XyzPlan RunOutputs::xyz_plan() const {
   XyzPlan plan{scene_.box, scene_.output.select};
   plan.spins = scene_.physics.surfaces.are_rough();
@@ -208,8 +208,8 @@ void RunOutputs::draw_plots() {
   if (!drawn) warnings_.emplace_back(without_gnuplot);
 }
 
-// Pictures of the run as it was when it came to an earlier end. Where they cannot be made anew, none is better than one
-// that ends too soon: they can be made from what is there. A movie without a trajectory cannot.
+// Removes pictures made at an earlier end of this run. If they cannot be made anew, no picture is better than one that
+// ends too early, and it can still be made from the other files. A movie without a trajectory cannot, so it is kept.
 void RunOutputs::remove_old_pictures() {
   std::error_code ignored;
   for (const std::string& plot : scene_.output.plots) fs::remove(folder_.path(plot_name(plot)), ignored);

@@ -23,7 +23,7 @@ namespace carom {
 // Whether a scene asks for any file at all.
 bool wants_files(const Scene& scene);
 
-// What a run warns of where these programs are not installed.
+// The warnings of a run if these programs are not installed.
 inline constexpr const char* without_ffmpeg =
     "ffmpeg is not installed: the movie becomes frames/frame_000001.png and so on";
 inline constexpr const char* without_gnuplot = "gnuplot is not installed: no plots are drawn";
@@ -33,44 +33,45 @@ enum class RunEnd : std::uint8_t { whole, early };
 
 class RunOutputs {
  public:
-  // Opens the files in the folder. run: shares out the work of a frame or sample; the files are the same. Throws
-  // RunError where a file cannot be written, here and below.
+  // Opens the files in the folder. run: the runner for the work of a frame or sample; it does not change the files.
+  // Throws RunError if a file cannot be written, here and below.
   RunOutputs(const Scene& scene, const OutputFolder& folder, BlockRunner run, DiskId next_id = 0);
 
-  // Goes on behind a mark: cuts back what came after it. Precondition: files_of(from) are in folder.unfinished().
+  // Continues after a mark: later data are cut off. Precondition: files_of(from) are in folder.unfinished().
   RunOutputs(const Scene& scene, const OutputFolder& folder, BlockRunner run, const OutputMark& from, DiskId next_id);
 
-  // To be called after each step, and before a frame or a sample at time t: how often disks go round periodic sides.
+  // To be called after each step, and before a frame or a sample at time t: counts the rounds of disks across periodic
+  // sides.
   void follow(const Engine& engine, double t);
-  bool follows() const;  // whether that changes anything
+  bool follows() const;  // does that have any effect?
 
-  // now: of the run, all but its disks.
+  // now: the state of the run; its disks are not used.
   void frame(const DisksInPieces& disks, const State& now);
 
   RunOutputs(const RunOutputs&) = delete;  // the trajectory refers to the counts of rounds
   RunOutputs& operator=(const RunOutputs&) = delete;
 
-  // What scene.analysis measures; null where it asks for nothing.
+  // The analysis; null if the scene asks for none.
   RunningAnalysis* analysis() const { return analysis_.get(); }
 
-  // Brings all that was written onto the disk and says where it stands. Between two frames, whenever wanted.
+  // Writes all data to the disk and returns the positions of all outputs. May be called between two frames at any time.
   OutputMark mark();
 
-  // Completes all files. After a run that stopped early no plots are drawn. Returns the mark from which a longer run
-  // could go on, if the scene asks for checkpoints or a plot was lost.
+  // Completes all files. After a run that stopped early no plots are drawn. Returns the mark from which the run could
+  // be continued, if the scene asks for checkpoints or a plot was lost.
   OutputMark finish(RunEnd end);
 
-  // Pictures that gnuplot or ffmpeg failed to make cost the run nothing else: what failed, one entry each.
+  // The pictures that gnuplot or ffmpeg failed to make; such failures do not stop the run.
   const std::vector<std::string>& lost_plots() const { return lost_plots_; }
   const std::string& lost_movie() const { return lost_movie_; }  // empty if it was not
 
-  // Ends writing where a later run will go on from the last mark.
+  // Stops writing; a resumed run will continue from the last mark.
   void pause();
 
   Count frames() const { return frames_; }
   double last_time() const { return last_time_; }  // simulated, of the last frame
 
-  // What could not be made as asked, one line each; asked for once, it is gone.
+  // Warnings about outputs that could not be made as asked, one line each; each is returned once.
   std::vector<std::string> take_warnings();
 
  private:

@@ -18,7 +18,7 @@ namespace carom {
 
 namespace {
 
-// Often enough to show the progress of a long run, and rarely enough to cost nothing.
+// Often enough to show the progress of a long run, rarely enough to cost next to nothing.
 constexpr std::chrono::seconds write_interval{5};
 
 // Does the first sample, if there is one, have no disk?
@@ -26,7 +26,7 @@ bool begins_empty(const AnalysisRecord& record) {
   return !record.series.disks.empty() && record.series.disks.front() == 0.0;
 }
 
-// Those that the scene asks for among what is followed from the first sample on.
+// The quantities, among those that the scene asks for, that follow disks from the first sample on.
 std::vector<std::string_view> followed_names(const Scene& scene) {
   std::vector<std::string_view> names;
   for (const Quantity q :

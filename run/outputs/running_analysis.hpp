@@ -1,4 +1,4 @@
-// What a run measures on its way, from the first sample to the file and the plots.
+// The measurements of a run, from the first sample to the file and the plots.
 #pragma once
 
 #include <string>
@@ -13,17 +13,17 @@ namespace carom {
 
 class RunningAnalysis {
  public:
-  // run: shares out the work of a sample. folder: null where it is for the summary alone, and nothing is written or
-  // drawn. Precondition: scene.analysis.any(). scene and folder must outlive it.
+  // run: the runner for the work of a sample. folder: null if the analysis is only for the summary, and nothing is
+  // written or drawn. Precondition: scene.analysis.any(). scene and folder must outlive it.
   RunningAnalysis(const Scene& scene, const OutputFolder* folder, BlockRunner run);
 
-  // Goes on from what was gathered up to a checkpoint. Throws InputError where it does not go with the scene.
+  // Continues from the record of a checkpoint. Throws InputError if it does not belong to the scene.
   RunningAnalysis(const Scene& scene, const OutputFolder* folder, BlockRunner run, AnalysisRecord from);
 
   // To be called after each step, and before a frame or sample at time t.
   void follow(const Engine& engine, double t);
 
-  // Writes analysis.h5 now and then. Throws RunError where it cannot.
+  // Adds a sample, and writes analysis.h5 now and then. Throws RunError if that fails.
   void sample(const DisksInPieces& disks, const State& now);
 
   // Mean square displacement of the disks of a frame; NaN before the first sample.
@@ -47,8 +47,8 @@ class RunningAnalysis {
   BlockRunner run_;
   AnalysisRecord record_;
   WallClock::time_point written_{};
-  bool warned_ = false;          // of moves too long to follow
-  bool warned_of_none_ = false;  // of a first sample without disks
+  bool warned_ = false;          // about moves too long to follow
+  bool warned_of_none_ = false;  // about a first sample without disks
 };
 
 }  // namespace carom

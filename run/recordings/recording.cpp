@@ -59,7 +59,7 @@ std::string note_of_another_run(const Recording& recording) {
 
 namespace {
 
-// A trajectory that cannot be read says so where its frames are asked for.
+// A trajectory that cannot be read is reported when its frames are read.
 bool has_other_box(const Recording& recording, const Domain& box) {
   try {
     TrajectoryFrame first;

@@ -18,12 +18,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of the series: about a tenth of a small page, and never so many that a plot could not show them.
+// The most values of the series: about a tenth of a small page, and no more than a plot can show.
 constexpr std::size_t most_series_values = 20'000;
 constexpr std::size_t bytes_a_value = 80;
 constexpr std::size_t most_curve_points = 500;
 
-// The curves of analysis.h5; none where there is no such file, or where it cannot be read.
+// The curves of analysis.h5; none if there is no such file, or if it cannot be read.
 std::vector<AnalysisCurve> curves_of(const Recording& recording, const ViewSettings& settings) {
   const fs::path file = recording.trajectory.parent_path() / "analysis.h5";
   if (!fs::exists(file)) return {};
@@ -79,7 +79,7 @@ void check_page_file(const fs::path& file, bool force) {
 
 ViewMade write_view(const fs::path& file, const Recording& recording, const ViewSettings& settings) {
   ViewMade made = view_of(recording, settings);
-  std::error_code ignored;  // what cannot be made, the file says
+  std::error_code ignored;  // an error shows when the file is written
   if (file.has_parent_path()) fs::create_directories(file.parent_path(), ignored);
   replace_file(file.string(), made.page);
   return made;
