@@ -48,10 +48,10 @@ void begin_axis(AxisTally& axis, const std::vector<double>& coordinate, const st
   }
 }
 
-// Since the look before.
+// Numbers of disks, since the last call.
 struct Moves {
-  Count doubtful = 0;  // too long
-  Count unknown = 0;   // of disks that are not followed
+  Count doubtful = 0;  // moved too far to be sure of
+  Count unknown = 0;   // are not followed
   Moves& operator+=(const Moves& other) {
     doubtful += other.doubtful;
     unknown += other.unknown;
@@ -62,11 +62,11 @@ struct Moves {
 // Notes disks [begin, end).
 Moves look_along(AxisTally& axis, const std::vector<double>& coordinate, const std::vector<DiskId>& id, double period,
                  std::size_t begin, std::size_t end) {
-  // Their ids lie all over memory, which is asked for so many disks before.
+  // Entries of neighbouring disks lie far apart in memory, so each is prefetched this many disks ahead.
   constexpr std::size_t ahead_in_memory = 64;
   const std::size_t known = axis.sixteenth.size();
   Moves moves;
-  if (known == 0) return {0, end - begin};  // of an axis that is not periodic, too
+  if (known == 0) return {0, end - begin};  // also if the axis is not periodic
   for (std::size_t i = begin; i < end; ++i) {
     if (i + ahead_in_memory < end && id[i + ahead_in_memory] < known) {
       __builtin_prefetch(&axis.sixteenth[id[i + ahead_in_memory]], 1);

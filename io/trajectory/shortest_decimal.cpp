@@ -23,7 +23,7 @@ char* write_by_library(char* out, Number value) {
 
 __extension__ using Wide = unsigned __int128;
 
-// A number is c * 2^q, c a whole number of fraction_bits + 1 bits.
+// The format of a number c * 2^q, where c is a whole number of fraction_bits + 1 bits.
 template <class Number>
 struct Parts;
 
@@ -38,15 +38,15 @@ template <>
 struct Parts<float> {
   using Bits = std::uint32_t;
   static constexpr int fraction_bits = 23, exponent_bits = 8;
-  static constexpr std::uint64_t lift = 100'000'000;  // to 15 digits and more
+  static constexpr std::uint64_t lift = 100'000'000;  // makes 7 to 9 digits 15 to 17
 };
 
-// Of the numbers in [2^b, 2^(b+1)). With 10^k the largest power of ten that is not above 2^q, c * 2^q is
-// c * five / 2^shift units of 10^k, where five = 5^-k has less than 64 bits: all that follows is exact.
+// The scale of all numbers in [2^b, 2^(b+1)). Let 10^k be the largest power of ten with 10^k <= 2^q. Then c * 2^q is
+// c * five / 2^shift in units of 10^k, where five = 5^-k has less than 64 bits, so that the product is exact.
 struct Binade {
   std::uint64_t five;
   int shift;
-  int exponent;  // of ten, of the first of 17 digits
+  int exponent;  // of ten, of the first digit of a number of 17 digits
 };
 
 constexpr int first_binade = -14, binades = 38;  // from below 1e-4 to beyond 1e7
@@ -68,14 +68,16 @@ constexpr std::array<Binade, binades> make_binades() {
 template <class Number>
 inline constexpr std::array<Binade, binades> all_binades = make_binades<Number>();
 
-// All bits where the condition holds: what is chosen by it costs no branch, which would go wrong half the time.
+// All bits are set if the condition holds. A choice by masks takes no branch, which would be mispredicted half the
+// time.
 constexpr std::uint64_t mask(bool condition) {
   return -static_cast<std::uint64_t>(condition);
 }
 
-// Of the numbers nearer to c units of 2^q than to its neighbours, in units of 10^k: a multiple of ten where there is
-// one (at most one is), else the nearest whole number, the even one of two.
-// Powers of two, whose lower neighbour is nearer, need no other way: those of these binades are as long as that.
+// The shortest decimal that is read as c * 2^q, in units of 10^k: the multiple of ten that is nearer to c * 2^q than to
+// its neighbours (c - 1) * 2^q and (c + 1) * 2^q. There is at most one. If there is none, the nearest whole number, and
+// the even one of two. Powers of two have a nearer lower neighbour; those of these binades have so few digits that it
+// makes no difference.
 std::uint64_t shortest(std::uint64_t c, const Binade& binade) {
   const int s = binade.shift;
   const Wide product = Wide{c} * binade.five;
@@ -83,7 +85,8 @@ std::uint64_t shortest(std::uint64_t c, const Binade& binade) {
   const std::uint64_t one = std::uint64_t{1} << s;
   const auto whole = static_cast<std::uint64_t>(product >> s);
   const std::uint64_t tens = whole - whole % 10;
-  // Twice the distances to the multiples of ten around it; never odd as binade.five, which is a unit of 2^q.
+  // Twice the distances to the two multiples of ten around the number. They are even and a unit of 2^q, binade.five, is
+  // odd, so that they are never equal to it.
   const std::uint64_t below = 2 * (low - (tens << s)), above = 20 * one - below;
   const std::uint64_t down = mask(below < binade.five), up = mask(above < binade.five);
   const std::uint64_t nearest = whole + ((2 * (low & (one - 1)) + one - 1 + (whole & 1)) >> s >> 1);
@@ -95,7 +98,7 @@ __m128i sixteen_digits(std::uint64_t number) {
   const std::uint64_t upper = number / 100'000'000;
   const __m128i eights =
       _mm_set_epi64x(static_cast<long long>(number - upper * 100'000'000), static_cast<long long>(upper));
-  // Each part is divided by a power of ten times a power of two, and the rest put behind the quotient.
+  // A division is a product with a rounded reciprocal and a shift. The remainder is put behind the quotient.
   __m128i part = _mm_srli_epi64(_mm_mul_epu32(eights, _mm_set1_epi64x(3'518'437'209)), 45);  // / 10^4
   const __m128i fours =
       _mm_or_si128(part, _mm_slli_epi64(_mm_sub_epi64(eights, _mm_mul_epu32(part, _mm_set1_epi64x(10'000))), 32));
@@ -130,9 +133,9 @@ Decimal decimal_of(std::uint64_t c, const Binade& binade) {
   return {first, others, static_cast<int>(std::bit_width(((~zeros & 0xffffU) << 1) | 1U)), exponent};
 }
 
-// How the first eight characters of a number with a point are made of its first eight digits, by its exponent.
+// How the first eight characters of a number of this exponent are made of its first eight digits.
 struct Point {
-  std::uint64_t before, text, after;  // masks of the digits before and after the point, and what stands between
+  std::uint64_t before, text, after;  // masks of the digits before and after the point, and the text between them
   int shift;                          // of the digits after it, in bits
   int zeros;                          // before the first digit
 };
@@ -156,7 +159,7 @@ constexpr std::array<Point, exponents> make_points() {
 
 constexpr std::array<Point, exponents> all_points = make_points();
 
-// Others are longer than with an exponent, as 1e-04 and 3e+05, or have too many digits before the point.
+// False if the text with an exponent is shorter, as 1e-04 and 3e+05, or if make_points() has no row for the exponent.
 bool can_have_point(const Decimal& decimal) {
   const bool is_long = decimal.digits > 1 || (decimal.exponent > first_exponent && decimal.exponent < 5);
   return is_long && static_cast<unsigned>(decimal.exponent - first_exponent) < exponents;

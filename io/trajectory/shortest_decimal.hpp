@@ -1,16 +1,16 @@
-// Numbers as text with as few digits as it takes to read the same bits back.
+// Numbers as text, with as few digits as are needed to read the same bits back.
 #pragma once
 
 #include <cstddef>
 
 namespace carom {
 
-// The most characters that write_shortest leaves behind its argument, also beyond the end of the text.
+// write_shortest may write so many characters, some of them beyond the end of the text.
 inline constexpr std::size_t shortest_decimal_bytes = 24;
 
-// What std::to_chars(out, ..., value) writes, to the character, in two fifths of its time where 1e-4 <= |value| < 1e7.
-// Returns the end of the text. Precondition: there is room for shortest_decimal_bytes characters.
-// Source: R. Giulietti, The Schubfach way to render doubles (2020), on numbers for which it needs no rounded powers.
+// Writes the same characters as std::to_chars(out, ..., value), in two fifths of its time if 1e-4 <= |value| < 1e7.
+// Returns the end of the text. Precondition: `out` has room for shortest_decimal_bytes characters.
+// Source: R. Giulietti, The Schubfach way to render doubles (2020). In this range all its powers of ten are exact.
 char* write_shortest(char* out, double value);
 char* write_shortest(char* out, float value);
 

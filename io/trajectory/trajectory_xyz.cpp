@@ -20,9 +20,9 @@ namespace carom {
 
 namespace {
 
-// Of a number, and of a whole one, with the space before it.
+// The most characters of a number and of a whole number, with the space before it.
 constexpr std::size_t number_bytes = 1 + shortest_decimal_bytes, whole_number_bytes = 12;
-// Of a line: seven numbers, four whole ones, and "X", three times " 0" and the line's end.
+// The most of a line: seven numbers, four whole numbers, "X", three times " 0" and the end of the line.
 constexpr std::size_t line_bytes = 7 * number_bytes + 4 * whole_number_bytes + 8;
 
 // Writes text into memory that has room for it.
@@ -47,7 +47,7 @@ class TextWriter {
     *end_ = ' ';
     end_ = std::to_chars(end_ + 1, end_ + whole_number_bytes, value).ptr;
   }
-  // Copies all of a buffer, whose first bytes count: quicker than as many as it takes.
+  // Adds the first bytes of a buffer. A copy of the whole buffer is quicker than one of varying length.
   template <std::size_t size>
   void add_first(const std::array<char, size>& buffer, std::size_t bytes) {
     std::memcpy(end_, buffer.data(), size);
@@ -68,9 +68,9 @@ std::string number_text(double value) {
 // Lines are made in blocks of so many, some hundreds of KB of text, so many blocks at the same time.
 constexpr std::size_t lines_of_block = 4096;
 constexpr std::size_t blocks_at_once = 16;
-// Storage places a block of what goes to rows.
+// Disks in a block when rows are filled.
 constexpr std::size_t rows_of_block = std::size_t{1} << 16;
-// In order of id, disks lie all over memory, which is asked for so many disks before.
+// Rows of neighbouring disks lie far apart in memory, so each is prefetched this many disks ahead.
 constexpr std::size_t disks_ahead = 32;
 
 // Radius and mass are often the same for many disks in a row: their text is made once.
@@ -117,7 +117,7 @@ FileMark XyzWriter::mark() {
   return {file_.name(), frames_, file_.bytes()};
 }
 
-// Sets the row of each disk; returns how many there are. Its order takes memory, and goes before rows take theirs.
+// Sets row_of_disk_ and returns the number of rows. The order by id is freed before rows take memory.
 std::size_t XyzWriter::number_rows(const Disks& disks) {
   std::vector<std::size_t> order = by_id(disks);
   if (!plan_.select.all()) {
@@ -128,7 +128,8 @@ std::size_t XyzWriter::number_rows(const Disks& disks) {
   return order.size();
 }
 
-// In order of storage, which waits for one place in memory a disk; lines made of columns would wait for one a column.
+// Goes through the disks in order of storage, where each disk costs one cache miss, that of its row. In order of id it
+// would cost one for each column.
 void XyzWriter::fill_rows(const Disks& disks, const BlockRunner& run) {
   rows_.resize(number_rows(disks));
   run((disks.size() + rows_of_block - 1) / rows_of_block, [&](std::size_t b) {

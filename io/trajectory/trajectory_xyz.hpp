@@ -59,14 +59,14 @@ class XyzWriter {
   void close() { file_.close(); }
 
  private:
-  // What a line shows, of a disk at this place in its columns.
+  // The data of a line, and the storage index of its disk.
   struct Row {
     double x, y, vx, vy;
     DiskId id;
     std::uint32_t place;
   };
 
-  // Lines of a frame, one after the other; memory for the longest ones.
+  // The text of a block of lines, in memory that has room for the longest lines.
   struct Lines {
     std::unique_ptr<char[]> text;
     std::size_t bytes = 0;
@@ -84,10 +84,10 @@ class XyzWriter {
   Count frames_ = 0;
   XyzPlan plan_;
   std::string lattice_;  // the constant part of each frame's second line
-  // Of the selected disks that are being written, in order of id; and the row of each disk of these, by its place.
+  // The selected disks of a piece in order of id, and the row of each disk by its storage index.
   std::vector<Row> rows_;
   std::vector<std::uint32_t> row_of_disk_;
-  // Of the blocks whose lines are made, and of those being written; kept, so that memory is asked for once.
+  // The blocks that are being made and those that are being written. They are kept, so that memory is allocated once.
   std::vector<Lines> made_, written_;
 };
 
