@@ -47,23 +47,24 @@ std::string markdown_table(const std::vector<CaseResult>& results) {
 
 constexpr const char* introduction = R"(# Stability
 
-Where each method fails, and that it says so. Each case is a scene of [scenes/stability/](../scenes/stability), run with
-all three methods; the expected figures and their bounds stand in [cases.toml](../scenes/stability/cases.toml) beside
-them. F1 to F17 are the faults of the [2014 program](original.md). The numbers decide the verdicts:
+This page shows where each method fails, and that it reports the failure. Each case is a scene of
+[scenes/stability/](../scenes/stability), run with all three methods. The expected figures and their bounds are in
+[cases.toml](../scenes/stability/cases.toml) beside the scenes. F1 to F17 are the faults of the
+[2014 program](original.md). Each verdict follows from numbers:
 
-- *right*: every figure within its bound, at t_end. Time stepping is granted an error of its order in dt. "warns": the
-  run was near its limits and warned of it.
-- *right but slow*: the same for more than 20 times the work of the cheapest right method, if that is a tenth of a second
-  or more; for rollback also where a dt takes more than two frames.
-- *wrong and says so*: a warning, or status 3, with the figure and the remedy.
-- *wrong in silence*: none of these. Nothing may be.
+| verdict | meaning |
+| --- | --- |
+| *right* | every figure is within its bound, at t_end. Time stepping may have an error of its order in dt. "warns": the run was near its limits and warned of it |
+| *right but slow* | right, with more than 20 times the work of the cheapest right method, if that is a tenth of a second or more; for rollback also if a dt takes more than two frames |
+| *wrong and says so* | a warning, or status 3, with the figure and the remedy |
+| *wrong in silence* | none of these; no case may be |
 
 This page, stability.csv (every figure, bound and warning) and the maps are made by
 
     cmake --build --preset release --target carom_stability_docs
 
-and `ctest -L stability` runs the same cases as tests. `./carom run SCENE --strict` ends a run with status 3 where a
-warning would come; [methods.md](methods.md) lists the warnings and their bounds.
+and `ctest -L stability` runs the same cases as tests. `./carom run SCENE --strict` ends a run with status 3 at its
+first warning. [methods.md](methods.md) lists the warnings and their bounds.
 
 ![Error of the collision rate over packing fraction and dt](stability_dt.svg)
 
