@@ -161,6 +161,15 @@ void put_residuals(std::string& bytes, const std::array<Residuals, 2>& residuals
   }
 }
 
+// One more than the last place of any frame; those of a frame ascend.
+std::uint32_t places_of(const std::vector<ViewFrame>& frames) {
+  std::uint32_t places = 0;
+  for (const ViewFrame& frame : frames) {
+    if (!frame.place.empty()) places = std::max(places, frame.place.back() + 1);
+  }
+  return places;
+}
+
 // The order of differences, 1 or 2, with which residuals in x take fewer bits: the sum of their lengths, of a sample of
 // the disks.
 unsigned better_order(const std::vector<ViewFrame>& frames, const std::vector<Changes>& changes, const ViewAxis& axis) {
@@ -318,8 +327,8 @@ std::uint32_t crc_of(std::string_view bytes) {
       crc32(0, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uInt>(bytes.size())));
 }
 
-ViewBlock pack_view_block(const std::vector<ViewFrame>& frames, std::size_t first, std::uint32_t places,
-                          const ViewAxes& axes) {
+ViewBlock pack_view_block(const std::vector<ViewFrame>& frames, std::size_t first, const ViewAxes& axes) {
+  const std::uint32_t places = places_of(frames);
   const std::vector<Changes> changes = changes_of(frames);
   ViewBlock block{first, frames.size(), 0, {}, 0};
   for (const ViewFrame& frame : frames) block.residuals += frame.place.size();

@@ -21,7 +21,7 @@ struct ViewFrame {
 };
 
 // A packed block. Inflated, it is
-//   frames, order (1 or 2), places             each a 32-bit number
+//   frames, order (1 or 2), places             each a 32-bit number; places: one more than the last one
 //   for each frame: removed runs, added runs   runs: their number, then (gap, length) of each, all as 7-bit varints
 //   lowest byte of every residual in x, of every one in y, then the next byte of both, and so on
 // Residuals are in order of frame and place: the number less what the last two frames of the disk let expect (order 2:
@@ -35,9 +35,8 @@ struct ViewBlock {
   std::uint32_t check = 0;    // CRC-32 of it
 };
 
-// Packs frames `first` and on. places: of the table so far.
-ViewBlock pack_view_block(const std::vector<ViewFrame>& frames, std::size_t first, std::uint32_t places,
-                          const ViewAxes& axes);
+// Packs frames `first` and on.
+ViewBlock pack_view_block(const std::vector<ViewFrame>& frames, std::size_t first, const ViewAxes& axes);
 
 // The frames again. Throws InputError, "name: frames A to B are damaged: ..." (frames counted from 1).
 std::vector<ViewFrame> unpack_view_block(const ViewBlock& block, const ViewAxes& axes, const std::string& name);

@@ -164,8 +164,7 @@ void ViewEncoder::pack_waiting() {
     packed_frames_ += waiting_[b].size();
   }
   std::vector<ViewBlock> made(waiting_.size());
-  const auto places = static_cast<std::uint32_t>(disks_.id.size());
-  run_(waiting_.size(), [&](std::size_t b) { made[b] = pack_view_block(waiting_[b], first[b], places, axes_); });
+  run_(waiting_.size(), [&](std::size_t b) { made[b] = pack_view_block(waiting_[b], first[b], axes_); });
   for (ViewBlock& block : made) {
     packed_bytes_ += block.packed.size();
     blocks_.push_back(std::move(block));

@@ -39,8 +39,7 @@ class ViewEncoder {
   // The end of a scale of speeds: 2.5 root mean squares of the displacement between two frames over their time, or the
   // fastest one, of up to a thousand disks a frame; 0 where none moved.
   double fast_speed() const;
-  std::size_t disk_frames() const { return disk_frames_; }      // disks of all frames
-  std::size_t packed_frames() const { return packed_frames_; }  // frames in blocks()
+  std::size_t disk_frames() const { return disk_frames_; }  // disks of all frames
   std::size_t packed_bytes() const { return packed_bytes_; }
 
  private:
@@ -63,7 +62,7 @@ class ViewEncoder {
   std::vector<std::vector<ViewFrame>> waiting_;  // frames of blocks to come; the last one grows
   std::size_t in_last_ = 0;                      // disks of all its frames
   std::vector<ViewBlock> blocks_;
-  std::size_t disk_frames_ = 0, packed_frames_ = 0, packed_bytes_ = 0;
+  std::size_t disk_frames_ = 0, packed_frames_ = 0, packed_bytes_ = 0;  // packed_frames_: in blocks()
   ViewFrame sampled_;                                    // some disks of the last frame, for their speeds
   double squares_ = 0.0, fastest_ = 0.0, speeds_ = 0.0;  // of speeds that were looked at: sum, largest; how many
 };

@@ -51,21 +51,31 @@ std::size_t text_bytes(std::size_t bytes) {
   return (bytes + 2) / 3 * 4;
 }
 
+// By what factor frames are too long whose first blocks are. Only these tell it: how many more are packed by then
+// depends on the threads, and the page must not.
+double factor_by_first_blocks(const ViewEncoder& encoder, std::size_t shown, std::size_t most_bytes) {
+  std::size_t bytes = 0;
+  std::size_t frames = 0;
+  for (const ViewBlock& block : encoder.blocks()) {
+    bytes += block.packed.size();
+    frames += block.frames;
+    if (text_bytes(bytes) > most_bytes) break;
+  }
+  const double part = static_cast<double>(frames) / static_cast<double>(shown);
+  return static_cast<double>(text_bytes(bytes)) / part / static_cast<double>(most_bytes);
+}
+
 // Packs the frames, and stops where they are too long; returns by what factor, 1 or less if they are not.
 double pack_frames(const OpenTrajectory& open, const Thinning& thin, std::size_t frames, std::size_t most_bytes,
                    ViewEncoder& encoder) {
   const auto reader = open();
+  const auto is_too_long = [&] { return text_bytes(encoder.packed_bytes()) > most_bytes; };
   TrajectoryFrame frame;
-  for (std::size_t k = 0; k < frames && reader->read(frame); ++k) {
-    if (k % thin.stride != 0) continue;
-    encoder.add(frame);
-    if (text_bytes(encoder.packed_bytes()) > most_bytes) {
-      const double part =
-          static_cast<double>(encoder.packed_frames()) / static_cast<double>(shown_frames(frames, thin.stride));
-      return static_cast<double>(text_bytes(encoder.packed_bytes())) / part / static_cast<double>(most_bytes);
-    }
+  for (std::size_t k = 0; k < frames && !is_too_long() && reader->read(frame); ++k) {
+    if (k % thin.stride == 0) encoder.add(frame);
   }
-  encoder.finish();
+  if (!is_too_long()) encoder.finish();
+  if (is_too_long()) return factor_by_first_blocks(encoder, shown_frames(frames, thin.stride), most_bytes);
   return static_cast<double>(text_bytes(encoder.packed_bytes())) / static_cast<double>(most_bytes);
 }
 
