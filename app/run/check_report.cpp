@@ -101,7 +101,10 @@ std::string cost_text(const Scene& scene, const Findings& f) {
     text += "; once disks lie in a pile, a step takes 5 to 50 times as long, the longer the taller it is";
   } else if (const std::optional<double> tc = scene.physics.collapse_contact_time) {
     const double each = 0.5 * rates::pile_collisions / *tc;
-    text += fmt::format("; once disks lie in a pile, each makes about {:.0e} collisions in a unit of time", each);
+    text += fmt::format(
+        "; once disks lie in a pile, each makes about {:.0e} collisions in a unit of time, which then takes "
+        "{} or more",
+        each, duration_text(each * f.population.mean * rates::exact_collision));
   }
   return text;
 }
