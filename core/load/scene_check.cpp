@@ -340,20 +340,25 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
   return warnings;
 }
 
-double check_box(const Scene& scene, const PlaceOfKey& place) {
-  check_box_range(scene, place);
-  check_times(scene, place);
+namespace {
+
+// Of all disks that a scene has and that its sources bring.
+struct SizesOfAll {
   double smallest = 0.0;  // radius; 0: no disk yet
   double largest = 0.0;
   double largest_to_move = 0.0;  // fixed disks may be wider than the box
   double lightest = 0.0;
-  const auto add = [&](const DiskSize& low, const DiskSize& high, bool fixed) {
+
+  void add(const DiskSize& low, const DiskSize& high, bool fixed) {
     smallest = smallest > 0.0 ? std::min(smallest, low.radius) : low.radius;
     largest = std::max(largest, high.radius);
     if (fixed) return;  // no mass of theirs is asked for
     lightest = lightest > 0.0 ? std::min(lightest, low.mass) : low.mass;
     largest_to_move = std::max(largest_to_move, high.radius);
-  };
+  }
+};
+
+void check_disks_of_groups(const Scene& scene, const PlaceOfKey& place, SizesOfAll& all) {
   DiskId first_id = 0;
   for (std::size_t g = 0; g < scene.groups.size(); ++g) {
     const DiskGroup& group = scene.groups[g];
@@ -367,9 +372,12 @@ double check_box(const Scene& scene, const PlaceOfKey& place) {
     if (group.positions.region) {
       check_start_region(*group.positions.region, scene.box, sizes.largest.radius, place(path + ".region"));
     }
-    add(sizes.smallest, sizes.largest, group.fixed);
+    all.add(sizes.smallest, sizes.largest, group.fixed);
     first_id += static_cast<DiskId>(group.count);
   }
+}
+
+void check_disks_of_sources(const Scene& scene, const PlaceOfKey& place, SizesOfAll& all) {
   for (std::size_t k = 0; k < scene.sources.size(); ++k) {
     const Source& source = scene.sources[k];
     const std::string path = fmt::format("sources.{}", k);
@@ -378,18 +386,28 @@ double check_box(const Scene& scene, const PlaceOfKey& place) {
     check_velocities(scene, source.velocities, low.mass, path, place);
     check_spins(scene, source.spins, low.mass, high.radius, path, place);
     check_emissions(scene, source, path, place);
-    add(low, high, false);
+    all.add(low, high, false);
     if (!source.side) check_region(source, scene.box, high.radius, place(path + ".region"));
   }
+}
+
+}  // namespace
+
+double check_box(const Scene& scene, const PlaceOfKey& place) {
+  check_box_range(scene, place);
+  check_times(scene, place);
+  SizesOfAll all;
+  check_disks_of_groups(scene, place, all);
+  check_disks_of_sources(scene, place, all);
   for (std::size_t k = 0; k < scene.walls.size(); ++k)
     check_wall(scene, scene.walls[k], fmt::format("walls.{}", k), place);
   const Domain& box = scene.box;
-  check_axis(box.width, box.periodic_x(), box.periodic_x() ? largest : largest_to_move, "width", place);
-  check_axis(box.height, box.periodic_y(), box.periodic_y() ? largest : largest_to_move, "height", place);
-  check_resolution(scene, smallest, place);
-  check_thermal_sides(scene, lightest, place);
+  check_axis(box.width, box.periodic_x(), box.periodic_x() ? all.largest : all.largest_to_move, "width", place);
+  check_axis(box.height, box.periodic_y(), box.periodic_y() ? all.largest : all.largest_to_move, "height", place);
+  check_resolution(scene, all.smallest, place);
+  check_thermal_sides(scene, all.lightest, place);
   check_selection(scene, place);
-  return largest_to_move;
+  return all.largest_to_move;
 }
 
 }  // namespace carom
