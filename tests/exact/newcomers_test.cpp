@@ -10,17 +10,14 @@
 #include "parallel/simulation.hpp"
 #include "tests/support/disks_by_hand.hpp"
 #include "tests/support/draws.hpp"
+#include "tests/support/source_by_hand.hpp"
 
 namespace carom {
 namespace {
 
-Source source_of(double rate, Vec2 low, Vec2 high, SizeLaw radius) {
-  Source source;
-  source.rate = rate;
-  source.region_low = low;
-  source.region_high = high;
+Source gas_from(double rate, Vec2 low, Vec2 high, SizeLaw radius) {
+  Source source = test::source_in(low, high, rate, 0.0);
   source.radius = std::move(radius);
-  source.mass.value = 1.0;
   source.velocities.kind = VelocityLaw::Kind::maxwell;
   source.velocities.temperature = 1.0;
   return source;
@@ -65,15 +62,15 @@ void expect_bits_of_reference(const Scene& scene, const State& start, std::size_
 }
 
 TEST(Newcomers, HaveTheReferencesBitsFromAnEmptyBoxOn) {
-  const Scene scene = scene_with({source_of(20.0, {1.0, 1.0}, {59.0, 39.0}, constant(0.5)),
-                                  source_of(20.0, {1.0, 1.0}, {29.0, 39.0}, constant(0.5))});
+  const Scene scene = scene_with({gas_from(20.0, {1.0, 1.0}, {59.0, 39.0}, constant(0.5)),
+                                  gas_from(20.0, {1.0, 1.0}, {29.0, 39.0}, constant(0.5))});
   expect_bits_of_reference(scene, test::state_of(scene, {}), 400);
 }
 
 // The larger ones are larger than all before, at first; then each comes where smaller and larger ones are known.
 TEST(Newcomers, HaveTheReferencesBitsWhateverTheirRadii) {
-  const Scene scene = scene_with({source_of(20.0, {2.0, 2.0}, {58.0, 38.0}, one_of({0.5, 0.2})),
-                                  source_of(7.0, {2.0, 2.0}, {58.0, 38.0}, one_of({0.05, 1.1}))});
+  const Scene scene = scene_with({gas_from(20.0, {2.0, 2.0}, {58.0, 38.0}, one_of({0.5, 0.2})),
+                                  gas_from(7.0, {2.0, 2.0}, {58.0, 38.0}, one_of({0.05, 1.1}))});
   expect_bits_of_reference(scene, test::state_of(scene, {}), 250);
 }
 
@@ -81,7 +78,7 @@ TEST(Newcomers, HaveTheReferencesBitsWhateverTheirRadii) {
 TEST(Newcomers, HaveTheReferencesBitsWhereTheGasHasOtherRadii) {
   for (const bool mixed : {false, true}) {
     for (const double radius : {0.1, 2.5}) {
-      const Scene scene = scene_with({source_of(2.0, {3.0, 3.0}, {57.0, 37.0}, constant(radius))});
+      const Scene scene = scene_with({gas_from(2.0, {3.0, 3.0}, {57.0, 37.0}, constant(radius))});
       test::Draws draws(3);
       test::Ranges gas;
       gas.radius_low = mixed ? 0.2 : 0.3;
@@ -96,8 +93,8 @@ TEST(Newcomers, HaveTheReferencesBitsWhereTheGasHasOtherRadii) {
 // A source whose corner is full, and one that has room: a disk of the second one gets the id that the first has tried.
 // Where a window is given up, and begun again by this engine or another one, the first tries no other id at that time.
 TEST(Newcomers, ComeOnceIntoAWindowThatIsBegunTwice) {
-  const Scene scene = scene_with({source_of(20.0, {1.0, 1.0}, {5.0, 5.0}, constant(0.5)),
-                                  source_of(20.0, {8.0, 8.0}, {59.0, 39.0}, constant(0.5))});
+  const Scene scene = scene_with(
+      {gas_from(20.0, {1.0, 1.0}, {5.0, 5.0}, constant(0.5)), gas_from(20.0, {8.0, 8.0}, {59.0, 39.0}, constant(0.5))});
   const auto undisturbed = make_reference_engine(scene, test::state_of(scene, {}));
   State now = test::state_of(scene, {});
   int given_up = 0;
@@ -126,7 +123,7 @@ TEST(Newcomers, ComeOnceIntoAWindowThatIsBegunTwice) {
 }
 
 TEST(Newcomers, HaveTheReferencesBitsBesideASinkAndUnderGravity) {
-  Scene scene = scene_with({source_of(30.0, {1.0, 20.0}, {59.0, 39.0}, constant(0.5))});
+  Scene scene = scene_with({gas_from(30.0, {1.0, 20.0}, {59.0, 39.0}, constant(0.5))});
   scene.physics.gravity = Gravity(0.0, 0.5);
   scene.physics.restitution = 0.9;
   scene.box.sides[static_cast<std::size_t>(Side::left)] = SideKind::sink;

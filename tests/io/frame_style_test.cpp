@@ -8,6 +8,7 @@
 #include "core/scene/disk_group.hpp"
 #include "io/movie/frame.hpp"
 #include "tests/support/picture.hpp"
+#include "tests/support/source_by_hand.hpp"
 
 namespace carom {
 namespace {
@@ -29,12 +30,9 @@ double speed_square(const Scene& scene, const Disks& first) {
   return foreseen_values(scene, first).speed_square;
 }
 
-Source source_of(double radius, double mass) {
-  Source source;
-  source.region_low = source.region_high = {5.0, 9.0};
-  source.radius.value = radius;
+Source point_source(double radius, double mass) {
+  Source source = test::source_in({5.0, 9.0}, {5.0, 9.0}, 1.0, radius);
   source.mass.value = mass;
-  source.rate = 1.0;
   return source;
 }
 
@@ -80,7 +78,7 @@ TEST(SpeedScale, LightDisksDoNotGetFasterWhereEnergyIsLost) {
 
 TEST(SpeedScale, SourcesBringTheirOwnSpeeds) {
   Scene scene = square_scene();
-  Source& source = scene.sources.emplace_back(source_of(1.0, 1.0));
+  Source& source = scene.sources.emplace_back(point_source(1.0, 1.0));
   source.mass = between(2.0, 8.0);
   source.velocities.kind = VelocityLaw::Kind::uniform;
   source.velocities.limit = 3.0;
@@ -93,7 +91,7 @@ TEST(SpeedScale, SourcesBringTheirOwnSpeeds) {
 // Disks of radius 1 that enter touching a side fall from it: none of the way to that side.
 TEST(SpeedScale, FromASideDisksFallFromThere) {
   Scene scene = square_scene();
-  scene.sources.push_back(source_of(1.0, 1.0));
+  scene.sources.push_back(point_source(1.0, 1.0));
   const auto from = [&](Side side) {
     scene.sources[0].side = side;
     return speed_square(scene, {});
@@ -113,7 +111,7 @@ TEST(SpeedScale, ATemperatureIsThatOfTheLightestDisk) {
   Scene scene = square_scene();
   scene.physics.thermostat = {Thermostat::Kind::langevin, 2.0, 1.0, 0.1};
   EXPECT_DOUBLE_EQ(speed_square(scene, resting), 2.5 * 2.0 * 2.0);
-  scene.sources.push_back(source_of(1.0, 0.25));
+  scene.sources.push_back(point_source(1.0, 0.25));
   scene.sources[0].mass = between(0.25, 16.0);
   EXPECT_DOUBLE_EQ(speed_square(scene, resting), 2.5 * 2.0 * 2.0 / 0.25);
   EXPECT_DOUBLE_EQ(speed_square(scene, {}), 2.5 * 2.0 * 2.0 / 0.25);
@@ -141,13 +139,13 @@ TEST(SpeedScale, BrownianStepsComeOnTopOfVelocitiesThatAreKept) {
 // Radii, masses and ids of disks that sources bring, of whatever law.
 TEST(ColourScale, CoversWhatSourcesBring) {
   Scene scene = square_scene();
-  scene.sources.push_back(source_of(0.5, 3.0));
+  scene.sources.push_back(point_source(0.5, 3.0));
   SeenValues seen = foreseen_values(scene, Disks{});
   EXPECT_TRUE(seen.any);
   EXPECT_EQ(seen.radius.low, 0.5);
   EXPECT_EQ(seen.radius.high, 0.5);
   EXPECT_EQ(seen.last_id, 10U) << "one a time until 10";
-  scene.sources.push_back(source_of(2.0, 1.0));
+  scene.sources.push_back(point_source(2.0, 1.0));
   scene.sources.back().limit = 3;
   seen = foreseen_values(scene, resting);
   EXPECT_EQ(seen.radius.low, 0.5);
@@ -155,7 +153,7 @@ TEST(ColourScale, CoversWhatSourcesBring) {
   EXPECT_EQ(seen.mass.low, 1.0);
   EXPECT_EQ(seen.mass.high, 3.0);
   EXPECT_EQ(seen.last_id, 13U);
-  scene.sources = {source_of(0.5, 3.0)};
+  scene.sources = {point_source(0.5, 3.0)};
   scene.sources[0].radius = from_other(4.0 / std::numbers::pi);
   scene.sources[0].mass = between(1.0, 64.0);
   seen = foreseen_values(scene, Disks{});
@@ -175,7 +173,7 @@ TEST(FrameStyle, ListsAllGroupsAndWhatStandsInTheBox) {
   FrameStyle style = predicted(scene, {});
   EXPECT_EQ(style.groups, 2U);
   EXPECT_EQ(style.group_names, (std::vector<std::string>{"sand", ""}));
-  scene.sources.push_back(source_of(1.0, 1.0));
+  scene.sources.push_back(point_source(1.0, 1.0));
   InnerWall& wall = scene.walls.emplace_back();
   wall.points = {{1.0, 1.0}, {2.0, 3.0}};
   style = predicted(scene, {});
