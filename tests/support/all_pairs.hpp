@@ -1,4 +1,4 @@
-// The search for pairs without a grid, O(N^2): what searches through cells are compared with.
+// A search for pairs without a grid, O(N^2), with which searches through cells are compared.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace carom::test {
 
-// What find_touching_pairs (core/reference/pair_search.hpp) finds, in the same order.
+// The result of find_touching_pairs (core/reference/pair_search.hpp), in the same order.
 inline std::vector<Pair> touching_among_all_pairs(const Disks& d, const Domain& box) {
   std::vector<Pair> pairs;
   for (std::uint32_t i = 0; i < d.size(); ++i) {

@@ -1,4 +1,4 @@
-// A small scene, and the program called with it, for tests of the command line.
+// A small scene, and calls of the program with it, for tests of the command line.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,7 @@ class CommandTest : public ProgramTest {
  protected:
   CommandTest() { write("small.toml", small_scene); }
 
-  // One line on standard error that says what is wrong, nothing on standard output.
+  // Expects one line on standard error with this text, and nothing on standard output.
   void expect_error(const std::string& line, int status, const std::string& what) const {
     const Outcome o = shell(line);
     EXPECT_EQ(o.status, status) << line << "\n" << o.err;

@@ -1,4 +1,4 @@
-// Disks in pieces, as those of several ranks come.
+// Disks in pieces, as from several ranks.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 
 namespace carom::test {
 
-// Pieces of so many ids; each has a radius and a mass a disk, in descending order of id.
+// Pieces of a fixed number of ids, in descending order of id within each; all have columns of radii and masses.
 class CutDisks final : public DisksInPieces {
  public:
   CutDisks(const Disks& disks, double time, DiskId ids) : disks_(disks), order_(by_id(disks)), time_(time), ids_(ids) {}

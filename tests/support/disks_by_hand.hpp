@@ -1,4 +1,4 @@
-// Scenes, boxes and disks that a test writes down itself, without a scene file.
+// Makes scenes, boxes and disks in a test, without a scene file.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace carom::test {
 
-// A box of walls, nothing moves it: no gravity, e = 1.
+// A box of elastic walls without gravity.
 inline Scene scene_of(Method method, double width, double height, double dt, double t_end) {
   Scene scene;
   scene.title = "test";
@@ -86,7 +86,7 @@ struct Ranges {
   double speed = 1.0;  // each component in [-speed, speed]
 };
 
-// n disks without overlap; the large ones may not find room, so densities here are modest.
+// n disks without overlap, at a modest density: at a high one there may be no room for large disks.
 inline std::vector<Disk> random_disks(Draws& draws, const Domain& box, std::size_t n, const Ranges& ranges) {
   std::vector<Disk> list;
   while (list.size() < n) {

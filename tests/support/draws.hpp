@@ -1,4 +1,4 @@
-// Random numbers for tests: the same on every machine, and not those that are tested.
+// Random numbers for tests: the same on every machine, and independent of the tested generator.
 #pragma once
 
 #include <cmath>
@@ -17,7 +17,7 @@ class Draws {
     return z ^ (z >> 31);
   }
   double in(double low, double high) { return low + (high - low) * (static_cast<double>(bits() >> 11) * 0x1p-53); }
-  // Every decade equally likely.
+  // Every decade is equally likely.
   double decades(double low, double high) { return std::exp(in(std::log(low), std::log(high))); }
 
  private:

@@ -1,4 +1,4 @@
-// Runs by the engine that people use, on two threads, and the account of energy that sides keep.
+// Runs by the parallel engine on two threads, and the energy that sides have given.
 #pragma once
 
 #include <iterator>
@@ -25,7 +25,7 @@ inline State run_by_engine(const Scene& scene, const State& start) {
   return run_by_engine(scene, start, [](const State&) {});
 }
 
-// Energy that all sides have given to the disks: heat of thermal ones, work of those that move.
+// The energy that all sides have given to the disks: heat of thermal sides, work of moving ones.
 inline double energy_from_sides(const State& state) {
   return std::accumulate(std::begin(state.counters.side_energy), std::end(state.counters.side_energy), 0.0);
 }

@@ -1,5 +1,5 @@
-// A plain event-driven simulation to hold the exact method against: all pairs, all images, long double, no grid, no
-// windows, every disk advanced at every event. Written from the formulas, sharing no code with core.
+// A plain event-driven simulation with which the exact method is compared: all pairs, all images, long double, no grid,
+// no windows, every disk advanced at every event. Written from the formulas, it shares no code with core.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace carom::oracle {
 
-// e(v) = max(least, 1 - viscosity v^(1/5)) of two groups; least itself where the viscosity is 0.
+// e(v) = max(least, 1 - viscosity v^(1/5)) for two groups; `least` itself if the viscosity is 0.
 struct GroupLaw {
   std::size_t first = 0, second = 0;
   Real least = 1.0L, viscosity = 0.0L;
@@ -30,7 +30,7 @@ struct System {
   Real left = 0.0L, down = 0.0L;  // gravity
   Real restitution = 1.0L, viscosity = 0.0L;
   std::vector<GroupLaw> laws;
-  std::vector<std::size_t> obstacle_groups;  // of those that are disks
+  std::vector<std::size_t> obstacle_groups;  // of obstacles that are disks
   std::vector<WallMotion> motions;           // of inner walls, by the id of the obstacle
   Surfaces surfaces;
   Real contact_time = 0.0L;  // TC model
@@ -38,9 +38,9 @@ struct System {
   std::size_t collisions = 0;
   std::size_t wall_collisions = 0;
   Real last_event = -HUGE_VALL;
-  Real shortest = HUGE_VALL;  // time between two events
-  Real no_gap = 0.0L;         // of two that meet again, speed of approach times the time between: below it, rounding
-  Real undecided = 0.0L;      // largest speed of approach across less than that
+  Real shortest = HUGE_VALL;  // shortest time between two events
+  Real no_gap = 0.0L;  // for two that meet again, speed of approach times the time between; smaller values are rounding
+  Real undecided = 0.0L;  // largest speed of approach below that
 };
 
 inline System make_system(const Disks& disks, const Domain& box, const Gravity& gravity, double restitution,
@@ -57,7 +57,7 @@ inline System make_system(const Disks& disks, const Domain& box, const Gravity& 
   return s;
 }
 
-// The same with all that the scene says of restitutions.
+// The same with the scene's laws of restitution.
 inline System make_system(const Scene& scene, const State& start) {
   System s = make_system(start.disks, scene.box, scene.physics.gravity, scene.physics.restitution, start.obstacles);
   s.viscosity = scene.physics.law.viscosity;
@@ -100,8 +100,7 @@ inline Way way_of(const System& s, const Obstacle& o) {
   return {motion.pace, motion.along.x, motion.along.y, s.time};
 }
 
-// Where it stands at the system's time, in the box as the wall's beginning wraps. Its place has the rounding of
-// doubles.
+// The obstacle at the system's time, wrapped into the box by its first end. Its place is rounded to double.
 inline Obstacle obstacle_now(const System& s, Obstacle o) {
   const Way way = way_of(s, o);
   if (!way.moves()) return o;
@@ -163,7 +162,7 @@ inline Happening next_happening(const System& s, Real end) {
     for (std::size_t k = 0; k < s.obstacles.size(); ++k) {
       const Way way = way_of(s, s.obstacles[k]);
       const Obstacle o = obstacle_now(s, s.obstacles[k]);
-      const int most = way.moves() ? 2 : 1;  // it may reach over a side
+      const int most = way.moves() ? 2 : 1;  // it may reach across a side
       for (int kx = px ? -most : 0; kx <= (px ? most : 0); ++kx) {
         for (int ky = py ? -most : 0; ky <= (py ? most : 0); ++ky) {
           const Real t_o = obstacle_time(a, o, way, kx * w, ky * h, s.left, s.down, std::min(end, first.time));
@@ -177,7 +176,7 @@ inline Happening next_happening(const System& s, Real end) {
   return first;
 }
 
-// Back into a box at this time: across the sides of a sheared one as the image that is there.
+// Wraps a ball into the box; in a sheared box it becomes the image there.
 inline void wrap_ball(Ball& b, const Domain& box, Real offset) {
   if (box.periodic_y()) {
     const Real rows = std::floor(b.y / box.height);
@@ -200,8 +199,8 @@ inline void advance(System& s, Real t) {
   s.time += t;
 }
 
-// Two that approach at this speed, whose surfaces slide at that of `slip`. True: one of them met something so recently
-// that they part as in an elastic, smooth collision.
+// Notes the contact of two balls that approach at speed `closing` with surface velocity `slip`. Returns true if one of
+// them had a contact so recently that the collision is elastic and smooth (TC model).
 inline bool meet(System& s, Ball& a, Ball& b, Real closing, Real slip) {
   const Real pause = s.time - std::max(a.last_event, b.last_event);
   const Real gap = std::abs(closing) * pause;
@@ -210,34 +209,33 @@ inline bool meet(System& s, Ball& a, Ball& b, Real closing, Real slip) {
   return pause < s.contact_time;
 }
 
-// The impulse that stops one surface sliding along the other at speed g and turns it round by its restitution, as far
-// as friction goes. give: by how much g falls for each unit of impulse.
+// The tangential impulse that turns the slip g into -restitution g, limited by friction. give: the decrease of g for
+// each unit of impulse.
 inline Real sticking_impulse(const Roughness& surface, Real g, Real give, Real pressed) {
   const Real most = std::isinf(surface.friction) ? HUGE_VALL : static_cast<Real>(surface.friction) * pressed;
   return std::clamp((1.0L + surface.restitution) * g / give, -most, most);
 }
 
-// An impulse on the ball's surface at the end of (nx, ny) times its radius, along the tangent that n becomes when it is
-// turned to the left.
+// Applies an impulse to the ball's surface at (nx, ny) times its radius, along the tangent to the left of n.
 inline void push_surface(const System& s, Ball& b, Real nx, Real ny, Real impulse) {
   b.vx += impulse / b.m * -ny;
   b.vy += impulse / b.m * nx;
   b.spin += impulse * b.r / (static_cast<Real>(s.surfaces.inertia) * b.m * b.r * b.r);
 }
 
-// How fast the surface there goes along that tangent, where surfaces are rough.
+// The velocity of the rough surface there along that tangent.
 inline Real surface_speed(const System& s, const Ball& b, Real nx, Real ny) {
   return s.surfaces.are_rough() ? -b.vx * ny + b.vy * nx + b.spin * b.r : 0.0L;
 }
 
-// How much that speed changes for each unit of impulse.
+// The change of that velocity for each unit of impulse.
 inline Real surface_give(const System& s, const Ball& b) {
   return 1.0L / b.m + b.r * b.r / (static_cast<Real>(s.surfaces.inertia) * b.m * b.r * b.r);
 }
 
-// The ball bounces off what lies at the end of n, moves at (ux, uy) there and is not moved itself.
+// The ball bounces off an immovable thing at (nx, ny) that has velocity (ux, uy).
 inline void bounce(System& s, Ball& a, Real nx, Real ny, Real ux, Real uy, Real restitution, Touching which) {
-  // As seen from there, so that without restitution nothing is left of the approach to a side.
+  // In the frame of that thing, so that with restitution 0 no approach remains.
   const Real wx = a.vx - ux;
   const Real wy = a.vy - uy;
   const Real approach = wx * nx + wy * ny;
@@ -329,12 +327,12 @@ inline void resolve(System& s, const Happening& e) {
   collide(s, e);
 }
 
-// Runs to time t. False: there were more than so many events before, or nothing can be said of the next one; the system
-// is at the last of them.
+// Runs to time t. Returns false if there were more than most_events events, or if the next one is undecided by
+// rounding; the system is then at the last event.
 inline bool run(System& s, Real t, std::size_t most_events = static_cast<std::size_t>(-1)) {
   std::size_t events = 0;
   for (;;) {
-    // Only images one period away are tested, so no disk may fly further than a quarter of it between predictions.
+    // Only images one period away are tested, so no disk may move by more than a quarter period between predictions.
     Real longest = no_event;
     for (const Ball& b : s.balls) {
       if (s.box.periodic_x()) longest = std::min(longest, 0.25L * s.box.width / (std::abs(b.vx) + 1e-300L));

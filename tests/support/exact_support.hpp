@@ -1,4 +1,4 @@
-// Building scenes and states for the tests of the exact method, and driving its engines.
+// Makes scenes and states for the tests of the exact method, and runs its engines.
 #pragma once
 
 #include <fmt/format.h>
@@ -72,7 +72,7 @@ inline State run_reference(const Scene& scene, State initial, double window_scal
   return engine->state();
 }
 
-// Everything that a run leaves behind, in bits.
+// All bits of a state, as text.
 inline std::string fingerprint(const State& s) {
   const Counters& c = s.counters;
   return fmt::format(

@@ -1,4 +1,4 @@
-// Memory that runs out where a test wants it to: the allocations of a program that includes this, in one of its files.
+// Lets allocations fail at a chosen point. To be included by one file of a test program; it replaces operator new.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ namespace carom::test {
 inline constexpr std::size_t endless = std::numeric_limits<std::size_t>::max();
 inline thread_local std::size_t allocations_left = endless;  // of this thread
 
-// Calls work() with memory for so many allocations of this thread.
+// Calls work(); this thread's allocations after the given number fail.
 template <class Work>
 void with_allocations(std::size_t allocations, Work&& work) {
   struct Limit {
@@ -26,8 +26,8 @@ void with_allocations(std::size_t allocations, Work&& work) {
 
 }  // namespace carom::test
 
-// Never inlined: the compiler would take free() for the wrong partner of a `new` that it sees whole. std::stable_sort
-// asks for its scratch by the form that does not throw, of which the address sanitizer has one of its own.
+// Never inlined: the compiler would warn that free() does not match a `new` that it inlines. The form that does not
+// throw is needed for std::stable_sort, and because the address sanitizer has its own.
 [[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   std::size_t& left = carom::test::allocations_left;
   if (left == 0) return nullptr;

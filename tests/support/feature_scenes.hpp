@@ -57,7 +57,7 @@ inline std::string sides_text(const std::string& sides, int seed) {
   }
   // Two thermal sides and two that are not.
   if (sides == "hot") return "left = { temperature = 9.0 }\nright = { temperature = 0.5 }\n";
-  // A piston that comes, one that goes, and a floor that vibrates several times.
+  // A piston that moves in, one that moves out, and a floor that vibrates several times.
   if (sides == "moving") {
     return "left = { motion = { velocity = [2.0, 0.0] } }\nright = { place = 23.5, motion = { velocity = [1.0, 0.0] } "
            "}\n"
@@ -117,7 +117,7 @@ inline std::string disks_text(const Features& f) {
 inline std::string obstacles_text(const Features& f) {
   if (!f.obstacles) return "";
   const std::string name = f.law == "pairs" ? "name = \"pegs\"\n" : "";
-  if (f.sides == "moving") {  // where none of them comes
+  if (f.sides == "moving") {  // where no side comes
     return "[[disks]]\n" + name +
            "fixed = true\ncount = 9\npositions = \"random\"\nregion = [17.0, 1.0, 22.0, 11.0]\nradius = { uniform = "
            "[0.05, 0.4] }\n[[disks]]\nfixed = true\ncount = 2\npositions = [[12.0, 17.9], [12.5, 18.0]]\n"
@@ -129,8 +129,8 @@ inline std::string obstacles_text(const Features& f) {
          "radius = [0.7, 0.4, 0.5, 0.6]\n";
 }
 
-// A line with a corner, a soft wall, one that touches both sides, and a sink where Brownian motion does not forbid it.
-// Where sides move, all of them move too.
+// A line with a corner, an inelastic wall, a wall that touches both sides, and a sink unless Brownian motion forbids
+// it. With moving sides, all of them move, too.
 inline std::string walls_text(const Features& f) {
   if (!f.obstacles) return "";
   const bool moving = f.sides == "moving";

@@ -1,4 +1,4 @@
-// What a run is told of the folder that it would write into.
+// The error about the output folder of a run.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace carom::test {
 
-// Empty where the run of the scene file `input` may write there.
+// Empty if a run of the scene file `input` may write there.
 inline std::string folder_refusal(const std::filesystem::path& folder, const std::filesystem::path& input, bool force) {
   try {
     check_output_folder(folder, input, force);

@@ -1,4 +1,4 @@
-// Rank 0 of several ranks that are threads of this process, with the others following it.
+// Runs rank 0 of several ranks, which are threads of this process, with the others following it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ inline std::string the_start(const State& state) {
   return "the start";
 }
 
-// work(lead) on rank 0 of `count`, the others follow. What is sent is no more than a name: all have the scene at hand.
+// Calls work(lead) on rank 0 of `count` ranks; the others follow. Only a name is sent, since all ranks have the scene.
 inline void on_ranks(int count, const Scene& scene, const State& start, const std::function<void(RankLead&)>& work) {
   run_on_local_ranks(count, [&](Ranks& ranks) {
     if (ranks.rank() > 0) {

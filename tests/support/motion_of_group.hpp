@@ -1,4 +1,4 @@
-// How some of the disks that are all here move.
+// The motion of some of the disks, in one call.
 #pragma once
 
 #include <cstddef>

@@ -1,9 +1,8 @@
-// When a ball of the oracle (event_oracle.hpp) next meets another one, a side or an obstacle, in long double. Written
-// from the formulas, sharing no code with core.
+// Times to the next contact of a ball of the oracle (event_oracle.hpp) with another ball, a side or an obstacle, in
+// long double. Written from the formulas, sharing no code with core.
 #pragma once
 
-// clang, unlike g++, calls every step from double to the oracle's long double a promotion by mistake; here it is the
-// point.
+// clang, unlike g++, warns of conversions from double to long double, which are intended here.
 #ifdef __clang__
 #pragma clang diagnostic ignored "-Wdouble-promotion"
 #endif
@@ -69,7 +68,7 @@ inline Line from_obstacle(const Obstacle& o, Real x, Real y) {
   return {x - share * dx, y - share * dy};
 }
 
-// How far a side has come into the box, how fast it comes, and its acceleration, from the formulas of its motion.
+// The inset of a side, its speed and its acceleration, from the formulas of its motion.
 struct Wall {
   Real inset = 0.0L, speed = 0.0L, acceleration = 0.0L;
   Real lasts = HUGE_VALL;  // time until the next piece of the motion
@@ -99,13 +98,13 @@ inline Wall wall_at(const SideMotion& m, Real t) {
   return {inset + rate * since * (half - since), rate * (half - 2.0L * since), -2.0L * rate, half - since};
 }
 
-// How an obstacle moves from now on: from where it is now, (x, y); without a pace it stands.
+// The motion of an obstacle from its present place (x, y) on; without a pace it is at rest.
 struct Way {
   SideMotion pace{};
   Real along_x = 0.0L, along_y = 0.0L;
   Real now = 0.0L;
   bool moves() const { return pace.kind != SideMotion::Kind::none; }
-  // How far it has come after time t, how fast it is then, and the most that this may change in a unit of time.
+  // Its displacement after time t, its speed then, and a bound on its acceleration.
   Wall after(Real t) const {
     const Wall then = wall_at(pace, now + t);
     return {then.inset - wall_at(pace, now).inset, then.speed, then.acceleration};
@@ -119,9 +118,9 @@ struct Way {
   }
 };
 
-// Contact of a falling ball with an obstacle displaced by (ox, oy), up to `end`, by going on as far as the ball surely
-// does not touch yet. NaN where that takes very many steps: the ball slides along the obstacle, and whether it touches
-// rounding decides.
+// Time of contact of a falling ball with an obstacle displaced by (ox, oy), up to `end`, by steps within which the ball
+// certainly does not touch. NaN if that takes very many steps: the ball then slides along the obstacle, and rounding
+// decides whether it touches.
 inline Real obstacle_time(const Ball& a, const Obstacle& o, const Way& way, Real ox, Real oy, Real left, Real down,
                           Real end) {
   const Real g = std::sqrt(left * left + down * down) + way.most_acceleration();
@@ -141,7 +140,7 @@ inline Real obstacle_time(const Ball& a, const Obstacle& o, const Way& way, Real
     if (gap <= nothing && nearer) return t;
     if (first && g == 0.0L && !nearer) return no_event;
     if (t >= end) return no_event;
-    // Away from a contact that is over by a little, beyond the reach of rounding.
+    // Leaves a contact that has just ended by slightly more than rounding.
     const Real room = std::max(gap, (nearer ? 1e-18L : 1e-13L) * reach);
     const Real speed = std::sqrt(vx * vx + vy * vy);
     t += 2.0L * room / (speed + std::sqrt(speed * speed + 2.0L * g * room));
@@ -149,7 +148,8 @@ inline Real obstacle_time(const Ball& a, const Obstacle& o, const Way& way, Real
   return std::numeric_limits<Real>::quiet_NaN();
 }
 
-// Likewise with a side that is a sine, up to `end`, by going on as far as no acceleration could bring the two together.
+// The same for a side that vibrates as a sine, up to `end`, by steps within which no acceleration could bring the two
+// together.
 inline Real sine_time(const SideMotion& m, Real now, Real d, Real u, Real g, Real end) {
   const Real w = 2.0L * std::acos(-1.0L) / static_cast<Real>(m.period);
   const Real most = std::abs(static_cast<Real>(m.amplitude)) * w * w + std::abs(g);
@@ -166,7 +166,7 @@ inline Real sine_time(const SideMotion& m, Real now, Real d, Real u, Real g, Rea
   return no_event;
 }
 
-// Of the images above a sheared box: how far they are displaced at time t.
+// The displacement of the images above a sheared box at time t.
 inline Real shear_offset(const Domain& box, Real t) {
   const Real jump = static_cast<Real>(box.shear.rate) * static_cast<Real>(box.height);
   return jump == 0.0L ? 0.0L : std::remainder(jump * t, static_cast<Real>(box.width));

@@ -15,7 +15,7 @@
 namespace carom::test::original {
 
 struct Options {
-  bool swap = false;    // (16) whatever the masses (F4)
+  bool swap = false;    // (16) for any masses (F4)
   bool copies = true;   // pairs work on copies taken at detection, the last write wins (F3)
   bool bounces = true;  // false: only moves and boundary
 };

@@ -1,4 +1,4 @@
-// Boxes and disks to be drawn, and what pixels of a picture are.
+// Boxes and disks to be drawn, and tests of pixels of a picture.
 #pragma once
 
 #include <algorithm>
@@ -41,7 +41,7 @@ struct PixelRange {
   int height() const { return bottom - top; }
 };
 
-// The smallest range that holds all of this range that is not white; of no size where all is.
+// The smallest range that contains all pixels of this range that are not white; empty if there are none.
 inline PixelRange ink_in(const FramePainter& painter, const PixelRange& range) {
   PixelRange ink{range.right, range.left, range.bottom, range.top};
   for (int row = range.top; row < range.bottom; ++row) {
@@ -54,8 +54,7 @@ inline PixelRange ink_in(const FramePainter& painter, const PixelRange& range) {
   return ink.right > ink.left ? ink : PixelRange{};
 }
 
-// The ink of a range as a number: of two words in one font, alike where they say the same, wherever they stand. 0 where
-// there is none.
+// A hash of the ink in a range: equal for the same word in the same font at any place. 0 without ink.
 inline std::uint64_t shape_in(const FramePainter& painter, const PixelRange& range) {
   const PixelRange ink = ink_in(painter, range);
   if (ink.width() == 0) return 0;

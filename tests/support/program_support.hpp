@@ -1,4 +1,4 @@
-// Running the real program in a folder of its own, for tests of what survives when it is interrupted.
+// Runs the real program in a folder of its own, for tests of interruptions.
 #pragma once
 
 #include <fcntl.h>
@@ -45,7 +45,7 @@ class ProgramTest : public ::testing::Test {
   }
   Outcome carom(const std::string& arguments) const { return shell("$C " + arguments); }
 
-  // Starts the program in the test's folder and returns its process id. What it says is added to the file `said`.
+  // Starts the program in the test's folder and returns its process id. Its output is appended to the file `said`.
   pid_t start(const std::vector<std::string>& arguments) const {
     std::vector<std::string> words{CAROM_PROGRAM};
     words.insert(words.end(), arguments.begin(), arguments.end());
@@ -59,7 +59,7 @@ class ProgramTest : public ::testing::Test {
     for (const int stream : {1, 2}) {
       posix_spawn_file_actions_addopen(&actions, stream, said.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
     }
-    // Signals that are ignored where the tests run, as by a shell's background jobs, are not by the program.
+    // Resets signals that are ignored where the tests run, as in background jobs of a shell.
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
     sigset_t all;
@@ -74,20 +74,20 @@ class ProgramTest : public ::testing::Test {
   }
   std::string said() const { return text_of(folder_.path() / "said"); }
 
-  // Waits for it; its exit status, or -signal.
+  // Waits for the process; returns its exit status, or -signal.
   static int wait_for(pid_t pid) {
     int status = 0;
     waitpid(pid, &status, 0);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
   }
 
-  // Takes a stopped run up again, by either engine, until it comes to its end. The first part stops at once, on
-  // a machine however fast; each later one is allowed more time than the one before: on a busy machine the first ones
-  // may do no more than read the checkpoint.
+  // Resumes a stopped run, by either engine in turn, until it ends. The first part stops at once, even on a fast
+  // machine; each later part gets more time than the one before, since on a busy machine the first ones may only read
+  // the checkpoint.
   struct Resumed {
     Outcome last;
     int parts = 1;
-    std::string said;  // by all parts, on standard error
+    std::string said;  // standard error of all parts
   };
   Resumed resume_to_the_end(const std::string& folder, Outcome stopped, const std::string& options = "--quiet") const {
     Resumed resumed{std::move(stopped), 1, ""};
@@ -104,7 +104,7 @@ class ProgramTest : public ::testing::Test {
     return resumed;
   }
 
-  // The summary without what differs from run to run: times, and how often it was resumed.
+  // The summary without the entries that differ from run to run: times, and the number of resumptions.
   nlohmann::ordered_json summary(const std::string& folder) const {
     auto json = nlohmann::ordered_json::parse(text_of(at(folder) / "summary.json"));
     for (const char* key : {"wall_s", "cpu_s", "step_s", "phase_s", "resumed", "threads", "engine", "ranks", "traffic"})
@@ -119,7 +119,7 @@ class ProgramTest : public ::testing::Test {
         .out;
   }
 
-  // Everything that two runs leave is the same.
+  // Expects that all results of two runs are the same.
   void expect_same_results(const std::string& a, const std::string& b) const {
     for (const char* name : {"trajectory.xyz", "series.csv", "velocity.svg", "energy.svg", "scene.toml"}) {
       ASSERT_EQ(std::filesystem::exists(at(a) / name), std::filesystem::exists(at(b) / name)) << name;

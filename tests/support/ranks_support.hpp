@@ -1,4 +1,4 @@
-// What ranks of any kind have to do, asked of each of them: called by all ranks of a run at the same time.
+// Tests for ranks of any kind; to be called by all ranks of a run at the same time.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ inline void expect_numbered(const Ranks& ranks) {
   EXPECT_EQ(ranks.below(), (ranks.rank() + ranks.count() - 1) % ranks.count());
 }
 
-// A message of `length` numbers that says where it comes from and where it goes.
+// A message of `length` numbers that tells its sender and direction.
 inline Bytes message_from(int rank, bool up, std::size_t length) {
   std::vector<std::uint64_t> numbers(length);
   std::iota(numbers.begin(), numbers.end(), std::uint64_t{1000} * static_cast<std::uint64_t>(rank) + (up ? 1U : 0U));

@@ -1,4 +1,4 @@
-// A run by the reference, looked at after every step.
+// A run by the reference, with a call after every step.
 #pragma once
 
 #include <functional>

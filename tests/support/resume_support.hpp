@@ -1,4 +1,4 @@
-// Runs that are interrupted and taken up again, for the tests that hold them against undisturbed ones.
+// Runs that are interrupted and resumed, for tests that compare them with undisturbed ones.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,14 +21,14 @@ inline bool goes_on(const State& state, const Scene& scene, Count steps) {
   return state.time < scene.run.t_end && state.counters.steps < steps;
 }
 
-// The engines that take turns: number of threads, 0 for the reference.
+// The engines used in turn: number of threads, 0 for the reference.
 inline std::unique_ptr<Engine> make(int threads, const Scene& scene, State state) {
   if (threads == 0) return make_reference_engine(scene, std::move(state));
   return make_parallel_engine(scene, std::move(state), {threads, 512});
 }
 
-// The state after a run that was stopped after every second or third step and went on from what a checkpoint held of
-// it: the scene read from its own text, the state from its bytes.
+// The state after a run that was stopped after every second or third step and resumed from a checkpoint: the scene from
+// its text, the state from its bytes.
 inline State interrupted(const Scene& scene, const State& start, Count steps, int first) {
   constexpr int turns[] = {3, 0, 1, 2, 5};
   RunRecord record;
@@ -62,7 +62,8 @@ inline void expect_same_bits(const std::string& method, const std::string& sides
   }
 }
 
-// So many steps of the reference, and that the engine has its bits on any number of threads. Returns its state.
+// Runs `steps` steps of the reference, and expects the same bits from the engine on any number of threads. Returns the
+// state.
 inline State expect_bits_of_reference(const Scene& scene, const State& start, Count steps) {
   const auto reference = make_reference_engine(scene, start);
   while (goes_on(reference->state(), scene, steps)) reference->step();

@@ -38,7 +38,7 @@ inline void expect_equal(const State& a, const State& b) {
   for (std::size_t k = 0; k < a.loads.size(); ++k) EXPECT_EQ(a.loads[k].force, b.loads[k].force);
 }
 
-// Initial state and run, in all units. Returns the end in the scene's own.
+// Makes the initial state and runs, in all units. Returns the final state in the scene's own units.
 inline State expect_same_in_all_units(const Scene& scene) {
   const State start = initial_state(scene);
   const State end = run(scene, start);

@@ -1,4 +1,4 @@
-// All that a run has counted, compared bit by bit.
+// Compares all counters of a run bit by bit.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -10,7 +10,7 @@
 
 namespace carom::test {
 
-// Names every member, and does not compile when one is missing.
+// Names every member, and fails to compile if one is missing.
 inline void expect_same_counters(const Counters& expected, const Counters& found) {
   const auto& [steps, collisions, wall_collisions, removed, emitted, waiting, disk_time, disk_time_excess, virial,
                emitted_energy, wall_impulse, side_energy, thermostat_heat, shear_virial, shear_work, wall_work,

@@ -1,4 +1,4 @@
-// What tests of scene files share: a sound scene to spoil, and the complaint that a spoilt one gets.
+// For tests of scene files: a valid scene, and the error message that a changed one gives.
 #pragma once
 
 #include <stdexcept>
@@ -37,7 +37,7 @@ dt = 0.01
 t_end = 10.0
 )";
 
-// text with the one place where from stands replaced by to.
+// text with the only occurrence of `from` replaced by `to`.
 inline std::string replaced(std::string_view text, std::string_view from, std::string_view to) {
   std::string result(text);
   const std::size_t at = result.find(from);
@@ -49,7 +49,7 @@ inline Scene scene_from(std::string_view text, const std::vector<Override>& over
   return parse_scene(text, "gas.toml", "", overrides);
 }
 
-// The message that reading the scene and making its disks ends with; empty if all is well.
+// The error message of reading the scene and making its disks; empty if there is none.
 inline std::string complaint(std::string_view text, const std::vector<Override>& overrides = {},
                              const std::string& folder = "") {
   try {

@@ -1,4 +1,4 @@
-// The engine against the reference on a scene of scenes/.
+// Compares the engine with the reference on a scene of scenes/.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -63,7 +63,7 @@ inline std::vector<std::uint64_t> hashes(Engine& engine, int steps) {
   return all;
 }
 
-// By all methods, on 1, 2, 3, 5 and 8 threads, and twice the same run; so many steps at most.
+// With all methods, on 1, 2, 3, 5 and 8 threads, and the same run twice; at most most_steps steps.
 inline void expect_engine_equals_reference(const std::string& name, int most_steps) {
   for (const char* method : {"pairwise", "rollback", "exact"}) {
     const Scene scene = short_scene(name, method);

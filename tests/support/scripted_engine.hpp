@@ -1,4 +1,4 @@
-// An engine whose steps a test makes up. It knows no time within a step.
+// An engine whose steps are defined by a test. It knows no times within a step.
 #pragma once
 
 #include <string>

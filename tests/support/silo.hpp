@@ -1,5 +1,4 @@
-// Silos: disks poured at random into a box that is higher than they fill it. What they must keep to on the way, and
-// what they come to.
+// Silos: disks poured at random into a box that they fill in part; their scene, and the forces on its sides.
 #pragma once
 
 #include <array>
@@ -20,7 +19,7 @@ struct Silo {
   double dt = 0.005;
 };
 
-// Packing fraction of the disks when they lie, about, and as they are poured.
+// Packing fraction of the resting disks (about), and when they are poured.
 inline constexpr double filled = 0.84, poured = 0.4;
 
 // Gravity 1, density 1, restitution 0.5 of disks and walls.
@@ -47,7 +46,7 @@ inline Scene silo_scene(const Silo& silo) {
   return scene;
 }
 
-// What the sides bore between two moments of a run, by Side; mass length / time^2.
+// The mean force on each side between two moments of a run, by Side; mass length / time^2.
 inline std::array<double, 4> mean_forces(const Counters& before, const Counters& after, double time) {
   std::array<double, 4> force{};
   for (std::size_t k = 0; k < 4; ++k) force[k] = (after.wall_impulse[k] - before.wall_impulse[k]) / time;

@@ -1,4 +1,4 @@
-// What tests of carom::Simulation have in common: a gas, the methods, and engines to run it by.
+// For tests of carom::Simulation: a gas, the methods, and engines.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Runs of `pairwise` on ranks of any kind, held against one machine.
+// Compares runs of `pairwise` on ranks of any kind with runs on one machine.
 #pragma once
 
 #include <fmt/format.h>
@@ -26,18 +26,18 @@
 
 namespace carom::test {
 
-// What of a run must not depend on ranks and threads.
+// The results of a run that must not depend on ranks and threads.
 struct SlabTrace {
   std::vector<std::uint64_t> hashes;  // after every step
-  std::vector<std::size_t> contacts;  // likewise, their number
+  std::vector<std::size_t> contacts;  // number of contacts after every step
   Counters counters;
   SinkCounts taken;
   WorstOverlap worst_disks, worst_wall;
   std::vector<std::string> warnings;
-  std::size_t most_moved = 0;  // on ranks: the most disks that came to a rank, or left it, in a step
-  std::size_t most_disks = 0;  // and the most that it had after one
-  std::size_t last_disks = 0;  // and how many it had at last
-  std::size_t thin = 0;        // warnings that slabs would be too thin, or that one rank runs all
+  std::size_t most_moved = 0;  // on ranks: the most disks that entered or left a rank in a step
+  std::size_t most_disks = 0;  // the most disks of a rank after a step
+  std::size_t last_disks = 0;  // disks of the rank at the end
+  std::size_t thin = 0;        // number of warnings that slabs would be too thin, or that one rank runs all disks
 };
 
 // What the engine has come to at the end of the run.
@@ -166,7 +166,7 @@ inline std::vector<Scene> slab_scenes(const std::string& sides, int steps) {
   return all;
 }
 
-// That of rank 0; all others are held against it.
+// The trace of rank 0, with which those of all other ranks are compared.
 inline SlabTrace local_trace(const Scene& scene, const State& start, const Threads& threads, int count) {
   std::mutex mutex;
   std::vector<SlabTrace> traces(static_cast<std::size_t>(count));
