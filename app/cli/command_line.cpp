@@ -48,7 +48,7 @@ constexpr const char* early_stop =
     "Ctrl-C, SIGTERM and --max-walltime write a checkpoint and stop with status 4; SIGUSR1 writes one and goes on. A "
     "second Ctrl-C quits at once.";
 
-// What carrying a run out has, from its start or from a checkpoint.
+// Adds the options of runs, whether from the start or from a checkpoint.
 void add_run_options(CLI::App* run, OptionWords& words, const std::string& engine) {
   add_value(run, "--engine", words.engine, "parallel|reference",
             fmt::format("default {}; both give the same bits", engine));
@@ -193,7 +193,7 @@ void add_commands(CLI::App& app, OptionWords& words) {
     CLI::App* const command = app.add_subcommand(row.name, row.help);
     command->allow_extras();
     row.describe(command, words);
-    // --strict=0 would be no --strict.
+    // Flags take no value: --strict=0 would silently switch --strict off.
     for (CLI::Option* const option : command->get_options()) option->disable_flag_override();
   }
 }

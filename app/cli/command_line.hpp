@@ -1,4 +1,4 @@
-// From argv to what the user asked for, with every value checked that can be checked without the scene.
+// Parses the command line, and checks every value that can be checked without the scene.
 #pragma once
 
 #include <array>
@@ -17,20 +17,20 @@ namespace carom {
 
 class RankLead;
 
-// What the command line changes in the scene: first every --set, then --method, --dt, --t-end and --seed.
+// The changes of the scene by the command line: first every --set, then --method, --dt, --t-end and --seed.
 struct SceneChanges {
   std::vector<Override> overrides;
-  std::size_t sets = 0;  // how many of them come from --set
+  std::size_t sets = 0;  // number of changes that come from --set
 };
 
 // How a run is carried out, from its start or from a checkpoint.
 struct CarryOptions {
   std::optional<std::string> folder;                              // -o
-  SceneChanges changes;                                           // of a run that goes on: --t-end only
-  std::string engine;                                             // empty: the default, or that of the run so far
+  SceneChanges changes;                                           // of a resumed run: --t-end only
+  std::string engine;                                             // empty: the default, or that of the resumed run
   std::optional<int> threads;                                     // >= 1; of each rank
   std::optional<int> ranks;                                       // >= 1; processes
-  RankLead* lead = nullptr;                                       // where they are running
+  RankLead* lead = nullptr;                                       // set if ranks are running
   double max_walltime = std::numeric_limits<double>::infinity();  // seconds
   bool json = false;
   bool quiet = false;
@@ -120,8 +120,8 @@ using Command = std::variant<RunOptions, CheckOptions, ResumeOptions, CompareOpt
 // Throws InputError with one line that names the option, and the nearest one for a misspelt name.
 Command parse_command_line(int argc, const char* const* argv);
 
-// load(overrides) reads a scene with these changes; what its complaints say of "--set run.dt" is said of --dt where
-// that is what the user wrote.
+// Returns load(overrides), which reads a scene with these changes. In its error messages "--set run.dt" is replaced by
+// --dt, if that is what the user wrote.
 Scene scene_as_told(const SceneChanges& changes, const std::function<Scene(const std::vector<Override>&)>& load);
 
 // The same for the scene in a file.

@@ -6,7 +6,7 @@
 
 namespace carom {
 
-// Each throws InputError where a word cannot be read, is out of range, or is missing.
+// Each throws InputError if a word cannot be read, is out of range, or is missing.
 RunOptions run_options(const OptionWords& words);
 ResumeOptions resume_options(const OptionWords& words);
 CheckOptions check_options(const OptionWords& words);

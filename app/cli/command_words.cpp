@@ -38,7 +38,7 @@ void check_command_name(const std::vector<const char*>& words) {
   }
 }
 
-// An empty word is a variable of the caller's shell that was not set: what it stood for would be left out in silence.
+// An empty word usually is an unset variable of the caller's shell; its value would be left out silently.
 void check_empty_words(const std::vector<const char*>& words) {
   for (std::size_t k = 1; k < words.size(); ++k) {
     if (*words[k] != '\0') continue;

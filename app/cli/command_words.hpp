@@ -5,8 +5,8 @@
 
 namespace carom {
 
-// The words of argv, "help" made "--help". Throws InputError where the first is no command of the program (and names
-// the nearest one, or the launcher), or where a word is empty.
+// The words of argv, with "help" replaced by "--help". Throws InputError if the first is not a command of the program
+// (and names the nearest one, or the launcher), or if a word is empty.
 std::vector<const char*> checked_words(int argc, const char* const* argv);
 
 }  // namespace carom

@@ -18,7 +18,7 @@ int command_sweep(const SweepOptions& options);
 int command_chart(const ChartOptions& options);
 int command_docs(const DocsOptions& options);
 
-// What docs/scene.md says of each key of compare --json.
+// The descriptions of the keys of compare --json, for docs/scene.md.
 std::vector<KeyText> compare_key_texts();
 
 }  // namespace carom

@@ -1,4 +1,4 @@
-// What carom compare compares, from its options.
+// The rule of carom compare, from its options.
 #pragma once
 
 #include <optional>
@@ -8,8 +8,8 @@
 
 namespace carom {
 
-// The values of --tolerance, --fields, --times and --at, empty where not given; none, if all are. Throws InputError
-// with one line that names the option.
+// From the values of --tolerance, --fields, --times and --at, each empty if not given; no rule if all are empty. Throws
+// InputError with one line that names the option.
 std::optional<CompareRule> compare_rule(const std::string& tolerance, const std::string& fields,
                                         const std::string& times, const std::string& at);
 

@@ -1,4 +1,4 @@
-// What the program says on its own streams.
+// Writes to the program's standard streams.
 #pragma once
 
 #include <string_view>
@@ -7,16 +7,16 @@
 
 namespace carom {
 
-// Standard output is a pipe, and its reader has gone, as that of `carom docs scene | head -1`.
+// Thrown if standard output is a pipe whose reader has gone, as in `carom docs scene | head -1`.
 struct ReaderGone : RunError {
   using RunError::RunError;
-  int status = 1;  // to end with where the signal does not end the program
+  int status = 1;  // exit status, if the signal does not end the program
 };
 
-// Writes to standard output. Throws ReaderGone, or RunError where that fails otherwise (a full disk).
+// Writes to standard output. Throws ReaderGone, or RunError for other failures (a full disk).
 void print_out(std::string_view text);
 
-// "carom: ..." and "carom: warning: ..." on standard error, a line each whatever characters names in it have.
+// Write "carom: ..." and "carom: warning: ..." to standard error, always as one line.
 void print_note(std::string_view text);
 void print_warning(std::string_view text);
 

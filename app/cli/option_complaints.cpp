@@ -21,7 +21,7 @@ std::vector<std::string_view> option_names(const CLI::App* command, std::vector<
   return {storage.begin(), storage.end()};
 }
 
-// What ./carom, which builds the program and then becomes it, does besides.
+// Help about further commands of ./carom, which builds the program and then runs it.
 constexpr const char* launcher_help = R"(The launcher ./carom in the sources has some more:
   test [ctest's arguments]    build and run the tests
   python [ARGUMENTS]          build the Python module and start Python with it
@@ -37,7 +37,7 @@ constexpr const char* launcher_help = R"(The launcher ./carom in the sources has
 
 void check_leftovers(const CLI::App* command) {
   std::vector<std::string> rest = command->remaining();
-  const auto mark = std::find(rest.begin(), rest.end(), "--");  // what follows it is no option
+  const auto mark = std::find(rest.begin(), rest.end(), "--");  // words after it are not options
   const auto option = std::find_if(rest.begin(), mark, [](const auto& word) { return word.starts_with("-"); });
   if (option == mark) {
     if (mark != rest.end()) rest.erase(mark);
@@ -63,7 +63,7 @@ void fail_as_one_line(const CLI::ParseError& error) {
   if (where.starts_with("-") && dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
     fail_input(where, "its value is missing", "see --help");
   }
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {  // behind "--"; check_leftovers has all others
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {  // after "--"; check_leftovers handles all others
     throw InputError(
         fmt::format("one argument too many, {}; see --help", in_quotes(text.substr(text.rfind(": ") + 2))));
   }

@@ -1,4 +1,4 @@
-// What CLI11 finds wrong, and its help, in our words.
+// The error messages and the help of CLI11, in Carom's form.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -6,7 +6,8 @@
 
 namespace carom {
 
-// Throws InputError about what no option or argument of the command took, with the nearest option for a misspelt one.
+// Throws InputError if words are left that no option or argument of the command took; for a misspelt option it names
+// the nearest one.
 void check_leftovers(const CLI::App* command);
 
 // CLI11's own complaints are about values that are missing or superfluous; "--dt: 1 required X missing" becomes an

@@ -1,4 +1,4 @@
-// What was given for each option, before any of it is read.
+// The texts given for each option, before they are parsed.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace carom {
 struct SceneOption {
   const char* option;
   const char* key;
-  const char* value;  // how --help calls it
+  const char* value;  // name of the value in --help
   const char* help;
 };
 inline constexpr std::array<SceneOption, 4> scene_options{{
@@ -22,9 +22,9 @@ inline constexpr std::array<SceneOption, 4> scene_options{{
     {"--seed", "seed", "S", "seed of all random numbers"},
 }};
 
-inline constexpr std::size_t t_end_option = 2;  // its place among them
+inline constexpr std::size_t t_end_option = 2;  // its index
 
-// What CLI11 reads; checked and turned into a Command afterwards, so that all messages are ours.
+// The texts read by CLI11. They are parsed and checked afterwards, so that all error messages have Carom's form.
 struct OptionWords {
   std::string first, second, folder, engine, threads, ranks, frame, walltime, seeds, jobs, emit, accuracy, tolerance,
       fields, times, at, colour, range, size, fps, max_size;

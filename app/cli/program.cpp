@@ -24,7 +24,7 @@ namespace carom {
 
 namespace {
 
-// mpirun alone says how many processes there are, where it was called by hand.
+// If mpirun was called by hand, it alone decides the number of processes.
 void check_started_ranks(int wanted, int started) {
   if (wanted == started) return;
   fail_input("--ranks", fmt::format("{} of them are asked for, and mpirun has started {}", wanted, started),
@@ -36,7 +36,7 @@ void warn_of_lone_ranks(const CarryOptions& options) {
   if (!warning.empty() && !options.quiet) print_warning(warning);
 }
 
-// A run on several ranks is started anew by MPI, unless it was already.
+// A run on several ranks is started again through MPI, unless it was started that way.
 struct Dispatch {
   int argc;
   char** argv;
@@ -70,8 +70,9 @@ struct Dispatch {
   }
 };
 
-// Where the caller closed a standard stream, the next file to be opened would get its number, and messages would land
-// in a trajectory. /dev/null takes the place: silently for errors, read-only for the output, whose loss is an error.
+// If the caller has closed a standard stream, the next file opened would get its descriptor, and messages would be
+// written into a trajectory. So /dev/null takes the descriptor: writable for errors, which are lost silently, and
+// read-only for the output, whose loss is an error.
 void occupy_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(stream, F_GETFD) == -1) open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
@@ -89,7 +90,7 @@ void give_back_columns() {
 #if defined(__GLIBC__)
   constexpr int column = 1 << 21;  // bytes
   mallopt(M_MMAP_THRESHOLD, column);
-  // What is smaller, such as messages of ranks, is not given back and asked for again each time.
+  // Smaller blocks, such as messages of ranks, are kept, not returned to the system and allocated again each time.
   mallopt(M_TRIM_THRESHOLD, 4 * column);
 #endif
 }
@@ -98,22 +99,21 @@ int program(int argc, char** argv, RankLead* lead) {
   occupy_standard_streams();
   end_with_parent();
   give_back_columns();
-  // A write that cannot be done shall return an error, which is reported, rather than end the program in the middle.
+  // A write beyond a file size limit should return an error, which is reported, and not end the program.
   std::signal(SIGXFSZ, SIG_IGN);
   const auto at_gone_reader = std::signal(SIGPIPE, SIG_IGN);
-  // The program that started this one may ignore SIGCHLD, and that is inherited: waitpid() could then not say how a
-  // child ended.
+  // SIGCHLD may be ignored by inheritance from the parent; waitpid() could then not return a child's status.
   std::signal(SIGCHLD, SIG_DFL);
   try {
-    kernel_set();  // a wrong CAROM_KERNELS is said before anything is done
+    kernel_set();  // reports a wrong CAROM_KERNELS before any work
     return std::visit(Dispatch{argc, argv, lead}, parse_command_line(argc, argv));
   } catch (const InputError& error) {
     return fail(2, error.what());
   } catch (const PhysicsError& error) {
     return fail(3, error.what());
   } catch (const ReaderGone& error) {
-    // Nothing is left to clear away: the end is now that of any filter, by the signal, unless the caller ignores it or
-    // mpiexec would take it for the loss of a rank.
+    // All is cleaned up, so the program ends by the signal, as filters do, unless the caller ignores it, or mpiexec
+    // would take that for the loss of a rank.
     if (lead == nullptr) {
       std::signal(SIGPIPE, at_gone_reader);
       std::raise(SIGPIPE);

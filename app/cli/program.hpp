@@ -1,17 +1,16 @@
-// The program but for what differs between one process and several ranks.
+// The program, for one process and for rank 0 of several.
 #pragma once
 
 namespace carom {
 
 class RankLead;
 
-// Reads the command line, runs the command and turns every kind of error into one line and an exit status, which it
-// returns. lead: of the ranks of which this process is the first; null where it is alone.
+// Reads the command line, runs the command, reports any error in one line, and returns the exit status. lead: of the
+// ranks of which this process is rank 0; null if it is alone.
 int program(int argc, char** argv, RankLead* lead);
 
-// For a process that runs scenes and is not that program: a column of many disks is mapped by itself, so that it goes
-// back to the system when it is freed. glibc would take to keeping up to 32 MiB, in pieces, once one of that size was
-// freed.
+// For other processes that run scenes: makes glibc allocate large columns as separate mappings, which return to the
+// system when they are freed. By default it would keep freed blocks of up to 32 MiB.
 void give_back_columns();
 
 }  // namespace carom

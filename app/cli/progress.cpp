@@ -11,9 +11,10 @@ namespace carom {
 
 namespace {
 
-constexpr double rate_seconds = 2.0;  // rates are means over once to twice this time
+constexpr double rate_seconds = 2.0;  // rates are means over this time to twice this time
 
-// Disks without those that came and with those that left: what a later count goes by, which may see a part of them.
+// The number of disks less emitted and plus removed ones: from this and the counters of a later state, which may hold
+// only a part of the disks, the number then follows.
 Count state_disks(const State& start, Count disks) {
   return disks + start.counters.removed - start.counters.emitted;
 }

@@ -9,27 +9,27 @@
 
 namespace carom {
 
-// How far a run was at some moment.
+// The progress of a run at some moment.
 struct ProgressPoint {
   double elapsed = 0.0;  // wall time since the run's first step, in seconds
   double time = 0.0;     // simulated
   Count steps = 0;
 };
 
-// What the line says: share done, simulated time, steps and disk-steps a second, time left. Rates are those since
-// `then`: a pile that settles becomes slower, and its beginning says nothing of its end.
+// The text of the line: share done, simulated time, steps and disk-steps per second, time left. Rates are those since
+// `then`: the beginning of a run, such as a pile that settles, may be faster than its end.
 std::string progress_text(const ProgressPoint& then, const ProgressPoint& now, std::size_t disks, double t_end);
 
-// The line of a run: kept up to date on a terminal, a line a minute elsewhere.
+// The line of a run: updated on a terminal; elsewhere one line a minute.
 class Progress {
  public:
-  // start: the state that the run begins or goes on from, with so many disks.
+  // start: the state from which the run begins or is resumed; disks: their number.
   Progress(bool wanted, double t_end, const State& start, Count disks, StatusPlace place = on_standard_error());
 
-  // Brings the line up to date, if it is time.
+  // Updates the line, if it is time.
   void update(const State& state);
 
-  // Takes the line away, so that something else can be written.
+  // Removes the line, so that other text can be written.
   void clear() { line_.clear(); }
 
  private:

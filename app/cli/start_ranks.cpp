@@ -31,14 +31,15 @@ namespace fs = std::filesystem;
 struct Setting {
   const char *name, *value;
 };
-// More ranks than cores take turns, and wait asleep; containers forbid reading the memory of another process; when a
-// rank has died, the others have so many seconds to end. What the user has set stays.
+// Settings for Open MPI, unless the user has set them: more ranks than cores are allowed, and sleep while they wait; no
+// reading of other processes' memory, which containers forbid; and when a rank has died, the others have this number of
+// seconds to end.
 constexpr std::array<Setting, 4> mpi_settings{{{"OMPI_MCA_rmaps_base_oversubscribe", "1"},
                                                {"OMPI_MCA_mpi_yield_when_idle", "1"},
                                                {"OMPI_MCA_btl_vader_single_copy_mechanism", "none"},
                                                {"OMPI_MCA_odls_base_sigkill_timeout", "1"}}};
 
-// Of carom-mpi, which lies beside the program.
+// The path of carom-mpi, which lies beside the program.
 std::string path_of_ranks() {
   std::string path = (fs::read_symlink("/proc/self/exe").parent_path() / "carom-mpi").string();
   if (fs::exists(path)) return path;
@@ -46,29 +47,29 @@ std::string path_of_ranks() {
              "expected Open MPI, Debian's packages openmpi-bin and libopenmpi-dev, and a build made with it");
 }
 
-// Where Open MPI is a module, it has to be loaded.
+// If Open MPI is an environment module, it has to be loaded.
 std::string path_of_mpiexec() {
   std::string path = find_program("mpiexec");
   if (!path.empty()) return path;
   fail_input("--ranks", "there is no mpiexec in PATH", "expected that of Open MPI, Debian's package openmpi-bin");
 }
 
-// Where rank 0 finds the process that started it.
+// The environment variable with the process id of the starter, for rank 0.
 constexpr const char* starter_name = "CAROM_STARTER";
 
-// By which rank 0 says that it takes signals from here on: one that no user and no program sends for anything else.
+// The signal by which rank 0 announces that it takes signals now; nobody else sends it.
 int ready_signal() {
   return SIGRTMIN;
 }
 
-// What a handler may touch has to be static: it is called with a number and nothing else.
+// The data of a signal handler have to be static: it is called with a number and nothing else.
 std::atomic<int> mpiexec_process = 0, rank_0_process = 0;
 std::atomic<int> stop_asked = 0, stop_passed = 0, checkpoint_asked = 0;
 static_assert(std::atomic<int>::is_always_lock_free);  // as a handler needs
 
-// To rank 0 itself, which then says by which signal it was stopped: mpiexec passes few on, and ends the ranks for the
-// others, as it shall for a second stop. While the ranks start signals would be lost, or end a rank that does not know
-// them yet: they are kept until rank 0 is ready, and has said so itself.
+// Passes a signal to rank 0 directly, so that it can report which signal stopped the run: mpiexec passes on only a few,
+// and ends the ranks for others (as is wanted for a second stop). While ranks start, signals would be lost, or end a
+// rank that does not handle them yet; so they are kept until rank 0 has announced that it is ready.
 extern "C" void pass_on(int signal, siginfo_t* info, void* /*context*/) {
   if (signal == ready_signal()) {
     rank_0_process = info->si_pid;
@@ -102,7 +103,8 @@ void pass_signals_on() {
   }
 }
 
-// In the child: a process group of its own, so that Ctrl-C reaches us alone; nothing to read; and it ends with us.
+// In the child: a process group of its own, so that Ctrl-C reaches only the parent; no standard input; and it ends with
+// the parent.
 [[noreturn]] void become(const std::vector<char*>& words) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
@@ -113,7 +115,8 @@ void pass_signals_on() {
   _exit(cannot_be_started);
 }
 
-// The status of mpiexec as that of the run: that of rank 0, which has said why; or a rank did not live to its end.
+// Converts the status of mpiexec to that of the run: the status of rank 0, which has reported its error; or an error
+// because a rank died.
 int status_of(int wait_status) {
   const int status = WIFEXITED(wait_status) ? WEXITSTATUS(wait_status) : 128 + WTERMSIG(wait_status);
   if (status < 127) return status;
@@ -124,8 +127,8 @@ int status_of(int wait_status) {
       why));
 }
 
-// Ranks beyond one a core only take turns, which serves to try things out. Each takes some 31 MB before it has a disk:
-// thousands would take the machine down.
+// More ranks than cores are useful only for trials. Each needs some 31 MB without disks, so thousands would bring the
+// machine down.
 constexpr int most_ranks_a_core = 8;
 
 }  // namespace
@@ -152,7 +155,7 @@ int start_ranks(int ranks, int argc, const char* const* argv) {
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   setenv(starter_name, fmt::format("{}", getpid()).c_str(), 1);
-  // No signal between the start of mpiexec and the handlers that know it.
+  // Blocks signals until mpiexec is started and the handlers know it.
   const sigset_t passed = passed_signals();
   sigset_t before;
   sigprocmask(SIG_BLOCK, &passed, &before);

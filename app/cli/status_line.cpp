@@ -44,7 +44,7 @@ void StatusLine::show(const std::string& text) {
     place_.write(fmt::format("carom: {}\n", text));
     return;
   }
-  // ESC [ K clears what a longer line left.
+  // ESC [ K clears the rest of a longer line.
   place_.write(fmt::format("\r{}\x1b[K", text.substr(0, std::max<std::size_t>(place_.columns, 1) - 1)));
   on_screen_ = true;
 }

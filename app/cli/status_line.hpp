@@ -7,7 +7,7 @@
 
 namespace carom {
 
-// Where the line is shown, and the clock that it goes by.
+// The output of the line, and its clock.
 struct StatusPlace {
   bool terminal = false;
   std::size_t columns = 80;
@@ -16,8 +16,8 @@ struct StatusPlace {
 };
 StatusPlace on_standard_error();
 
-// On a terminal one line that is renewed in place, five times a second at most; elsewhere, where a line stays for ever,
-// a line each minute, the first after the first minute.
+// On a terminal, one line that is updated in place, at most five times a second; elsewhere a new line each minute, the
+// first after one minute.
 class StatusLine {
  public:
   explicit StatusLine(bool wanted, StatusPlace place = on_standard_error());
@@ -29,7 +29,7 @@ class StatusLine {
   bool due() const;
   void show(const std::string& text);
 
-  // Takes the line away, so that something else can be written. What is not on a terminal stays.
+  // Removes the line on a terminal, so that other text can be written; elsewhere does nothing.
   void clear();
 
   bool terminal() const { return place_.terminal; }

@@ -1,4 +1,4 @@
-// carom-mpi: the program on several ranks, as mpiexec starts them. Rank 0 is the program; the others do what it does.
+// carom-mpi: the program on several ranks, started by mpiexec. Rank 0 runs the program; the others follow it.
 #include <fmt/format.h>
 
 #include <csignal>
@@ -17,12 +17,12 @@ namespace carom {
 
 namespace {
 
-// mpiexec passes SIGUSR2 on where it would end the ranks for SIGTERM: to rank 0 it means the same.
+// mpiexec passes SIGUSR2 on, but ends the ranks for SIGTERM; so for rank 0 SIGUSR2 means SIGTERM.
 extern "C" void take_as_sigterm(int /*signal*/) {
   std::raise(SIGTERM);
 }
 
-// Those that mpiexec passes on, which come at any time, wait (SIG_BLOCK) until the rank knows what they mean to it
+// The signals that mpiexec passes on may come at any time; they are blocked (SIG_BLOCK) until the rank handles them
 // (SIG_UNBLOCK).
 void passed_signals(int what) {
   sigset_t set;
@@ -31,7 +31,7 @@ void passed_signals(int what) {
   pthread_sigmask(what, &set, nullptr);
 }
 
-// Signals that ask for a checkpoint or the end are rank 0's, which tells the others.
+// Only rank 0 handles signals that ask for a checkpoint or a stop; it tells the others.
 void leave_signals_to_rank_0() {
   for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGUSR2}) std::signal(signal, SIG_IGN);
   passed_signals(SIG_UNBLOCK);
