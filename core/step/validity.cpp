@@ -201,7 +201,7 @@ std::vector<std::string> validity_warnings_at_start(const Scene& scene, double s
   const double side = std::max(scene.box.width, scene.box.height);
   if (smallest_radius < least_radius_share * side) {
     warnings.push_back(
-        fmt::format("in a box of {:g} places are known to {:.2g} of the smallest radius only; use a "
+        fmt::format("in a box {:g} long positions are rounded to {:.2g} of the smallest radius; use a "
                     "smaller box or larger disks",
                     side, side * 0x1p-53 / smallest_radius));
   }
@@ -211,10 +211,10 @@ std::vector<std::string> validity_warnings_at_start(const Scene& scene, double s
   const double way = steps ? fastest * scene.run.dt : 0.0;
   const double rounding = side * 0x1p-53;
   if (way > 0.0 && way < least_step_roundings * rounding) {
-    warnings.push_back(
-        fmt::format("the fastest disk moves by {:.2g} in dt = {:g}, and in a box of {:g} places are known to {:.2g}: "
-                    "motion is lost in rounding; use a longer dt or run.method = \"exact\"",
-                    way, scene.run.dt, side, rounding));
+    warnings.push_back(fmt::format(
+        "the fastest disk moves by {:.2g} in dt = {:g}, but in a box {:g} long positions are rounded to {:.2g}: "
+        "motion is lost in rounding; use a longer dt or run.method = \"exact\"",
+        way, scene.run.dt, side, rounding));
   }
   const double step = std::sqrt(2.0 * scene.physics.diffusion * scene.run.dt) / smallest_radius;
   if (step > largest_brownian_step) {

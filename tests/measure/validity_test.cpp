@@ -286,12 +286,12 @@ TEST(Validity, ScenesThatNoMethodServesWarnBeforeTheFirstStep) {
   EXPECT_THAT(validity_warnings_at_start(scene, 1.0), IsEmpty());
   EXPECT_THAT(validity_warnings_at_start(scene, 0.0), IsEmpty());
   EXPECT_THAT(validity_warnings_at_start(scene, 1e-9),
-              ElementsAre(HasSubstr("in a box of 20 places are known to 2.2e-06 of the")));
+              ElementsAre(HasSubstr("in a box 20 long positions are rounded to 2.2e-06 of the")));
   EXPECT_THAT(validity_warnings_at_start(scene, 1.0, 3.0), IsEmpty());
   scene.run.dt = 1e-16;
   EXPECT_THAT(
       validity_warnings_at_start(scene, 1.0, 3.0),
-      ElementsAre(AllOf(HasSubstr("the fastest disk moves by 3e-16 in dt = 1e-16, and in a box of 20 places are"),
+      ElementsAre(AllOf(HasSubstr("the fastest disk moves by 3e-16 in dt = 1e-16, but in a box 20 long positions are"),
                         HasSubstr("motion is lost in rounding; use a longer dt"))));
   EXPECT_THAT(validity_warnings_at_start(scene, 1.0, 0.0), IsEmpty()) << "nothing moves";
   scene.physics.diffusion = 2.0;
