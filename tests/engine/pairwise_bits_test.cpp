@@ -170,6 +170,7 @@ TEST(PairwiseBits, OfDisksThatComeToAPeriodicSide) {
   const Scene scene = parse_scene(text, "side.toml", "");
   const auto engine = make_parallel_engine(scene, initial_state(scene), {1});
   while (engine->state().time < scene.run.t_end) engine->step();
+  ASSERT_EQ(engine->state().disks.size(), 12U);
   for (const double x : engine->state().disks.x) EXPECT_EQ(x, 0.0);
 }
 
