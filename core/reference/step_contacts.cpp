@@ -22,7 +22,8 @@ void resolve_impacts(const View& d, const State& state, const StepRules& rules, 
     for (const ContactEvent& e : events) {
       const bool crowded = is_crowded(contacts, e);
       if (pass > 0 && !crowded) continue;
-      if (rules.settles && is_support(d, rules, e, load_of(state.loads, e) > 0.0, crowded)) continue;
+      if (rules.settles && is_support(d, rules, e, {.loaded = load_of(state.loads, e) > 0.0, .crowded = crowded}))
+        continue;
       const Impact impact = resolve_event(d, rules, e);
       tally.add(e.id2, impact);
       const bool happened = has_happened(impact);
@@ -59,7 +60,7 @@ struct Sweeps {
   }
 };
 
-// The supports among the events, to supports, and what else there is of them; their contacts to loads.
+// Fills `supports` with the supports among the events and `loads` with their contacts; returns the other columns.
 template <class View>
 SupportSet make_supports(const View& d, const State& state, const StepRules& rules,
                          const std::vector<ContactEvent>& events, const std::vector<std::uint32_t>& contacts,
@@ -67,7 +68,7 @@ SupportSet make_supports(const View& d, const State& state, const StepRules& rul
   SupportSet set;
   for (const ContactEvent& e : events) {
     const double force = load_of(state.loads, e);
-    if (!is_solved(d, rules, e, force > 0.0, is_crowded(contacts, e))) continue;
+    if (!is_solved(d, rules, e, {.loaded = force > 0.0, .crowded = is_crowded(contacts, e)})) continue;
     const std::size_t k = loads.size();
     loads.push_back({e.id1, e.id2, 0.0});
     for (auto* column : {&set.impulse, &set.last, &set.before, &set.ahead, &set.counted, &set.contact_distance}) {
@@ -82,7 +83,7 @@ SupportSet make_supports(const View& d, const State& state, const StepRules& rul
   return set;
 }
 
-// Solves the supports; their loads go to state.loads, in id order as the events are.
+// Solves the supports and stores their loads in state.loads, in the order of ids that the events have.
 template <class View>
 void bear_loads(const View& d, State& state, const StepRules& rules, const std::vector<ContactEvent>& events,
                 const std::vector<std::uint32_t>& contacts, ImpactTally& tally) {
@@ -100,13 +101,14 @@ void bear_loads(const View& d, State& state, const StepRules& rules, const std::
   for (std::size_t k = 0; k < loads.size(); ++k) {
     if (rules.round == 0) shift_by_load(d, supports[k], set.impulse[k], rules.dt);
     tally.add_load(loads[k].id2, supports[k], borne(set, k, supports[k]), rules.box);
-    loads[k].force = set.impulse[k] / rules.dt;  // may vanish, where the impulse is hardly a number and the step long
+    loads[k].force = set.impulse[k] / rules.dt;  // may underflow to 0
   }
   std::erase_if(loads, [](const ContactLoad& load) { return load.force == 0.0; });
   state.loads = std::move(loads);
 }
 
-// One sweep over all contacts; then over the crowded ones, which can undo one another's work, until nothing is deep.
+// One sweep over all contacts; then sweeps over the crowded ones, which can press one another together again, until no
+// overlap is deep.
 template <class View>
 void push_all(const View& d, const State& state, const StepRules& rules, const std::vector<ContactEvent>& events,
               const std::vector<std::uint32_t>& contacts) {
@@ -115,7 +117,8 @@ void push_all(const View& d, const State& state, const StepRules& rules, const s
     any_pushed = false;
     for (const ContactEvent& e : events) {
       const bool loaded = rules.settles && load_of(state.loads, e) > 0.0;
-      any_pushed = push_in_sweep(d, rules, e, sweep, is_crowded(contacts, e), loaded) || any_pushed;
+      any_pushed =
+          push_in_sweep(d, rules, e, sweep, {.loaded = loaded, .crowded = is_crowded(contacts, e)}) || any_pushed;
     }
   }
 }
@@ -151,7 +154,8 @@ StepFigures resolve_serially(State& state, const StepRules& rules, std::vector<C
   with_view(state.disks, rules, [&](const auto& d) {
     const std::vector<std::uint32_t> contacts = contacts_per_disk(state.disks.size(), events);
     for (const ContactEvent& e : events) {
-      const bool bore = load_of(state.loads, e) > 0.0 && is_crowded(contacts, e);  // seen at the end of that step
+      const bool bore =
+          load_of(state.loads, e) > 0.0 && is_crowded(contacts, e);  // its overlap was noted at the end of that step
       if (rules.round == 0 && !is_wall(e.id2) && !bore) note_overlap_before(d, rules, e.i1, e.i2, figures);
     }
     ImpactTally tally;

@@ -19,18 +19,18 @@
 
 namespace carom {
 
-// Disks a block of the pass that finishes them.
+// Disks in a block of the pass that finishes them.
 inline constexpr std::size_t finish_block = 8192;
 
-// All contacts into settle.pairs.found, and how many each disk has.
+// Fills settle.pairs.found with all contacts, and counts those of each disk.
 void gather_pairs(const Disks& disks, const FoundContacts& found, const Executor& executor, ContactLists& lists);
 
-// Room for the events of so many blocks.
+// Reserves memory for the events of this number of blocks.
 void reserve_crowded_blocks(std::size_t blocks, const Executor& executor, ContactLists& lists);
 
-// Looks up what each pair bore in the step before (settle.borne); pairs and loads are both in order of ids. Contacts
-// that may be impacts go to lists.crowded as events: all but those that are both loaded and crowded. Returns whether
-// any of them is an impact rather than a support as the disks stand now.
+// Looks up the force of each pair in the step before (settle.borne); pairs and loads are both in order of ids. Contacts
+// that may be impacts become events in lists.crowded: all but those that are both loaded and crowded. Returns whether
+// any of them is an impact, not a support, at present.
 template <class View>
 bool look_up_loads(const View& d, const State& state, const StepRules& rules, const Executor& executor,
                    ContactLists& lists) {
@@ -54,7 +54,7 @@ bool look_up_loads(const View& d, const State& state, const StepRules& rules, co
       if (force > 0.0 && crowded) continue;
       if (rules.round == 0 && !is_wall(p.id2())) note_overlap_before(d, rules, p.i1, p.i2, lists.seen[b]);
       lists.crowded_blocks[b].push_back(timed_event(d, rules, p));
-      if (!is_support(d, rules, p.event(), force > 0.0, crowded)) lists.largest[b] = 1.0;
+      if (!is_support(d, rules, p.event(), {.loaded = force > 0.0, .crowded = crowded})) lists.largest[b] = 1.0;
     }
   });
   add_seen(lists);
@@ -62,10 +62,10 @@ bool look_up_loads(const View& d, const State& state, const StepRules& rules, co
   return any_marked(lists);
 }
 
-// Impacts in order of time, again where one of a crowded contact may have made others: what is alone changes no other
-// contact. Whether a contact is a support is asked when its turn comes, as an impact before may have changed that. It
-// is asked as if it had borne no load: a load counts for crowded contacts alone, and those that bore one are not in the
-// list.
+// Resolves impacts in order of time, and again if an impact of a crowded contact may have made others; contacts that
+// are alone change no others. Whether a contact is a support is decided when its turn comes, since an impact before may
+// have changed that. It counts as not loaded: a load matters for crowded contacts only, and loaded ones of those are
+// not in the list.
 template <class View, class Others>
 void resolve_impacts(const View& d, Disks& disks, const StepRules& rules, const Executor& executor, ContactLists& lists,
                      ImpactTally& tally, Others& others) {
@@ -76,7 +76,7 @@ void resolve_impacts(const View& d, Disks& disks, const StepRules& rules, const 
     assign_amply(lists.largest, lists.patches.count(), 0.0);
     const auto resolve_one = [&](const ContactEvent& e, std::size_t q) {
       const bool crowded = !is_alone(lists, e);
-      if ((pass > 0 && !crowded) || is_support(d, rules, e, false, crowded)) return;
+      if ((pass > 0 && !crowded) || is_support(d, rules, e, {.loaded = false, .crowded = crowded})) return;
       const Impact impact = resolve_event(d, rules, e);
       lists.tallies[q].add(e.id2, impact);
       if (crowded && has_happened(impact)) lists.largest[q] = 1.0;
@@ -88,7 +88,7 @@ void resolve_impacts(const View& d, Disks& disks, const StepRules& rules, const 
   others.refresh(Motions{disks});
 }
 
-// Every contact once, then the deep ones among the crowded until there are none.
+// Pushes every contact once, then the deep ones among the crowded until there are none.
 template <class View, class Others>
 void push_contacts(const View& d, Disks& disks, const StepRules& rules, const Executor& executor, ContactLists& lists,
                    Others& others) {
@@ -98,8 +98,8 @@ void push_contacts(const View& d, Disks& disks, const StepRules& rules, const Ex
     const auto push_patch = [&](std::size_t q) {
       for (std::size_t at = lists.patches.start[q]; at < lists.patches.start[q + 1]; ++at) {
         const IdPair& p = settle.placed[at];
-        const bool loaded = settle.holding[at] != 0;
-        if (push_in_sweep(d, rules, p.event(), sweep, is_crowded(lists, p), loaded)) lists.largest[q] = 1.0;
+        const ContactStatus status{.loaded = settle.holding[at] != 0, .crowded = is_crowded(lists, p)};
+        if (push_in_sweep(d, rules, p.event(), sweep, status)) lists.largest[q] = 1.0;
       }
     };
     run_patches(lists.patches, false, executor, push_patch, others.before(Places{disks}));

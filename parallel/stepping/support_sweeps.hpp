@@ -1,5 +1,5 @@
-// The supports of a step, solved patch by patch with the bits of core/reference/step_contacts.cpp's serial sweeps.
-// Others: what ranks ask each other on the way; SingleSlab below, or OtherSlabs (parallel/slabs/other_slabs.hpp).
+// Solves the supports of a step, by patches, with the bits of the serial sweeps of core/reference/step_contacts.cpp.
+// Others: the cooperation with other ranks; SingleSlab below, or OtherSlabs (parallel/slabs/other_slabs.hpp).
 #pragma once
 
 #include <cstddef>
@@ -23,10 +23,10 @@ inline bool is_crowded(const ContactLists& lists, const IdPair& p) {
   return lists.contacts[p.i1] > 1 || lists.contacts[p.i2] > 1;
 }
 
-// What resolving a pile asks of other ranks. This one answers where one rank has the whole box. any(here): is it so on
-// any rank? counts(patch): does this rank count the contacts of the patch? Of two ranks that resolve a contact, one
-// does. before(values): what run_patches calls before each phase; values are those that the sweep changes.
-// refresh(values): brings the values of other ranks' disks up to date.
+// The cooperation with other ranks while a pile is resolved. SingleSlab is for one rank with the whole box. any(here):
+// is `here` true on any rank? counts(patch): does this rank count the contacts of the patch? Of two ranks that resolve
+// a contact, one does. before(values): the function that run_patches calls before each phase; values: those that the
+// sweep changes. refresh(values): updates the values of other ranks' disks.
 struct SingleSlab {
   static constexpr bool alone = true;
   bool any(bool here) const { return here; }
@@ -47,7 +47,7 @@ struct SingleSlab {
   void refresh(Values /*values*/) const {}
 };
 
-// The columns of the batches' slots, as of lanes that are left over; and the spare disks, at rest.
+// Sets the columns of all slots to those of unused lanes, and puts the spare disks at rest.
 void resize_supports(SupportSet& set, const SupportBatches& batches, std::size_t patches, std::size_t disks);
 
 // Adds the tallies of the patches that this rank counts.
@@ -58,7 +58,8 @@ void add_tallies(const ContactLists& lists, const Others& others, ImpactTally& t
   }
 }
 
-// The step's pairs (settle.pairs.sorted) into the order of patches, and the places of the supports among them.
+// Puts the step's pairs (settle.pairs.sorted) into the order of patches, and finds the slots of the supports among
+// them.
 template <class View, class Others>
 void place_supports(const View& d, const Disks& disks, const StepRules& rules, const Executor& executor,
                     ContactLists& lists, Others&& others) {
@@ -70,7 +71,8 @@ void place_supports(const View& d, const Disks& disks, const StepRules& rules, c
   });
   resize_amply(settle.placed, pairs.size());
   resize_amply(settle.holding, pairs.size());
-  resize_amply(settle.totals, patches.count());  // here, as few steps need them: a warm one allocates nothing
+  resize_amply(settle.totals,
+               patches.count());  // allocated here, since few steps use them: a warm step allocates nothing
   begin_batches(settle.batches, patches, disks.size());
   run_patches(patches, false, executor, [&](std::size_t q) {
     for (std::uint32_t at = patches.start[q]; at < patches.start[q + 1]; ++at) {
@@ -84,13 +86,14 @@ void place_supports(const View& d, const Disks& disks, const StepRules& rules, c
         },
         [&](std::size_t at) {
           const IdPair& p = settle.placed[at];
-          return is_solved(d, rules, p.event(), settle.borne[patches.order[at]] > 0.0, is_crowded(lists, p));
+          const double borne_before = settle.borne[patches.order[at]];
+          return is_solved(d, rules, p.event(), {.loaded = borne_before > 0.0, .crowded = is_crowded(lists, p)});
         });
   });
   lay_out_batches(settle.batches);
 }
 
-// visit(at, slot) for the supports of a patch in order; at: place in settle.placed.
+// Calls visit(at, slot) for the supports of a patch in order; at: index in settle.placed.
 template <class Visit>
 void visit_supports(const ContactLists& lists, std::size_t patch, Visit&& visit) {
   const std::vector<std::uint32_t>& slot = lists.settle.batches.slot;
@@ -99,7 +102,7 @@ void visit_supports(const ContactLists& lists, std::size_t patch, Visit&& visit)
   }
 }
 
-// The supports of the step, in batches; settle.borne becomes 0.
+// Makes the supports of the step in batches, and sets settle.borne to 0.
 template <class View, class Others>
 void make_supports(const View& d, const Disks& disks, const StepRules& rules, const Executor& executor,
                    ContactLists& lists, Others&& others) {
@@ -118,10 +121,10 @@ void make_supports(const View& d, const Disks& disks, const StepRules& rules, co
   });
 }
 
-// Disks a block of the passes over velocities.
+// Disks in a block of the passes over velocities.
 inline constexpr std::size_t velocity_block = 4096;
 
-// visit(i) for all disks in contact.
+// Calls visit(i) for all disks in contact.
 template <class Visit>
 void visit_in_contact(const ContactLists& lists, const Executor& executor, Visit&& visit) {
   executor.for_ranges(lists.contacts.size(), velocity_block, [&](std::size_t, std::size_t begin, std::size_t end) {
@@ -131,7 +134,7 @@ void visit_in_contact(const ContactLists& lists, const Executor& executor, Visit
   });
 }
 
-// The sweeps that solve_supports (core/physics/support_solver.hpp) asks for.
+// The Sweeps of solve_supports (core/physics/support_solver.hpp).
 template <class Others>
 struct PatchSweeps {
   const Executor& executor;
@@ -139,7 +142,7 @@ struct PatchSweeps {
   Others& others;
   SweepKernels kernels = choose_sweep_kernels();
 
-  // The batches of all patches, forward or back. before: as in run_patches.
+  // Relaxes the batches of all patches, forward or back. before: as in run_patches.
   template <Watch watch, class Before>
   void relax_all(Sweep sweep, Before&& before) const {
     SettleLists& settle = lists.settle;
@@ -212,7 +215,8 @@ struct PatchSweeps {
   }
 };
 
-// What the loads do to the disks, and their forces back to the pairs (settle.borne, settle.holding).
+// Displaces the disks by the loads, tallies these, and stores their forces with the pairs (settle.borne,
+// settle.holding).
 template <class View, class Others>
 void take_up_loads(const View& d, const StepRules& rules, const Executor& executor, ContactLists& lists,
                    ImpactTally& tally, Others&& others) {
@@ -225,7 +229,7 @@ void take_up_loads(const View& d, const StepRules& rules, const Executor& execut
       const double impulse = settle.supports.impulse[slot];
       if (rules.round == 0) shift_by_load(d, support, impulse, rules.dt);
       lists.tallies[q].add_load(settle.placed[at].id2(), support, borne(settle.supports, slot, support), rules.box);
-      const double force = impulse / rules.dt;  // may vanish, where the impulse is hardly a number and the step long
+      const double force = impulse / rules.dt;  // may underflow to 0
       settle.borne[patches.order[at]] = force;
       settle.holding[at] = force > 0.0 ? 1 : 0;
     });
@@ -233,11 +237,11 @@ void take_up_loads(const View& d, const StepRules& rules, const Executor& execut
   add_tallies(lists, others, tally);
 }
 
-// The loads of the step in order of ids, from settle.borne.
+// Stores the loads of the step in state.loads, in order of ids, from settle.borne.
 void keep_loads(State& state, const Executor& executor, ContactLists& lists);
 
-// Solves the supports among the step's pairs; their loads go to state.loads, their impulses to the tally.
-// Precondition: settle.borne has what each pair bore in the step, or the round, before.
+// Solves the supports among the step's pairs; their loads go to state.loads, their impulses to the tally. Precondition:
+// settle.borne has the force of each pair in the step, or the round, before.
 template <class View, class Others>
 void bear_loads(const View& d, State& state, const StepRules& rules, const Executor& executor, ContactLists& lists,
                 ImpactTally& tally, Others& others) {

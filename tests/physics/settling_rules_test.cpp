@@ -27,10 +27,11 @@ constexpr double dt = test::settling_dt;
 // wall; two disks alone are none.
 TEST(Support, IsASlowContact) {
   const StepRules rules = settling_rules();
-  const auto is_support_at = [&](double speed, bool against_wall, bool loaded, bool squeezed) {
+  const auto is_support_at = [&](double speed, bool against_wall, bool loaded, bool crowded) {
     Disks disks = test::disks_of({{5.0, 1.0, 0.0, -speed, 1.0, 1.0}, {7.0, 1.0, -speed, 0.0, 1.0, 1.0}});
     const ContactEvent e = contact_of(0, against_wall ? wall_partner(Side::bottom) : 1);
-    return with_view(disks, [&](const auto& d) { return is_support(d, rules, e, loaded, squeezed); });
+    return with_view(disks,
+                     [&](const auto& d) { return is_support(d, rules, e, {.loaded = loaded, .crowded = crowded}); });
   };
   for (const bool against_wall : {true, false}) {
     EXPECT_TRUE(is_support_at(63.9 * g * dt, against_wall, false, true));
@@ -48,8 +49,9 @@ TEST(Support, AsksForTheSpeedAlongTheLineOfCentres) {
   for (const double factor : {63.9, 64.1}) {
     const double speed = factor * g * dt;
     Disks disks = test::disks_of({{5.0, 5.0, 0.0, 0.0, 1.0, 1.0}, {6.2, 6.6, -0.6 * speed, -0.8 * speed, 1.0, 1.0}});
-    EXPECT_EQ(with_view(disks, [&](const auto& d) { return is_support(d, rules, contact_of(0, 1), false, true); }),
-              factor < 64.0);
+    EXPECT_EQ(
+        with_view(disks, [&](const auto& d) { return is_support(d, rules, contact_of(0, 1), {.crowded = true}); }),
+        factor < 64.0);
   }
 }
 
@@ -58,8 +60,9 @@ TEST(Support, IsNoElasticWallAndNoThermalOne) {
   StepRules rules = settling_rules();
   Disks disks = test::disks_of({{5.0, 1.0, 0.0, 0.0, 1.0, 1.0}});
   const ContactEvent e = contact_of(0, wall_partner(Side::bottom));
-  const auto support = [&](bool loaded, bool squeezed) {
-    return with_view(disks, [&](const auto& d) { return is_support(d, rules, e, loaded, squeezed); });
+  const auto support = [&](bool loaded, bool crowded) {
+    return with_view(disks,
+                     [&](const auto& d) { return is_support(d, rules, e, {.loaded = loaded, .crowded = crowded}); });
   };
   EXPECT_TRUE(support(false, false));
   rules.box.restitutions.fill(1.0);
@@ -74,8 +77,8 @@ TEST(Support, IsNoElasticWallAndNoThermalOne) {
 TEST(Support, IsSolvedWithAllCrowdedContactsThatDissipate) {
   StepRules rules = settling_rules();
   Disks disks = test::disks_of({{5.0, 1.0, 0.0, 0.0, 1.0, 1.0}, {7.0, 1.0, -1e4 * g * dt, 0.0, 1.0, 1.0}});
-  const auto solved = [&](bool squeezed) {
-    return with_view(disks, [&](const auto& d) { return is_solved(d, rules, contact_of(0, 1), false, squeezed); });
+  const auto solved = [&](bool crowded) {
+    return with_view(disks, [&](const auto& d) { return is_solved(d, rules, contact_of(0, 1), {.crowded = crowded}); });
   };
   EXPECT_TRUE(solved(true));
   EXPECT_FALSE(solved(false));
@@ -97,7 +100,7 @@ TEST(Support, IsASlowContactInTheFrameOfTheWall) {
     with_view(disks, [&](const auto& d) {
       for (const ContactEvent& e : {contact_of(0, wall_partner(Side::bottom)), contact_of(1, obstacle_partner(0))}) {
         EXPECT_NEAR(normal_velocity(d, rules.box, e), -speed, 1e-14);
-        EXPECT_EQ(is_support(d, rules, e, false, false), speed < 2.0 * g * dt);
+        EXPECT_EQ(is_support(d, rules, e, {}), speed < 2.0 * g * dt);
       }
     });
   }
@@ -236,8 +239,8 @@ TEST(PushApart, TakesCrowdedContactsAgain) {
   const StepRules rules = settling_rules();
   const auto pushed = [&](int sweep, bool crowded, double overlap) {
     Disks disks = test::disks_of({{5.0, 5.0, 0.0, 0.0, 1.0, 1.0}, {7.0 - overlap, 5.0, 0.0, 0.0, 1.0, 1.0}});
-    return with_view(disks,
-                     [&](const auto& d) { return push_in_sweep(d, rules, contact_of(0, 1), sweep, crowded, false); });
+    return with_view(
+        disks, [&](const auto& d) { return push_in_sweep(d, rules, contact_of(0, 1), sweep, {.crowded = crowded}); });
   };
   EXPECT_TRUE(pushed(0, false, 1e-6));
   EXPECT_FALSE(pushed(1, false, 0.1));
@@ -255,7 +258,9 @@ TEST(PushApart, LaysALoadedDiskBack) {
   ASSERT_GT(0.02, slack);
   const auto place_after = [&](double x, double y, DiskId other, int sweep, bool loaded) {
     Disks disks = test::disks_of({{x, y, 0.0, 0.0, 3.0, 1.0}});
-    with_view(disks, [&](const auto& d) { push_in_sweep(d, rules, contact_of(0, other), sweep, true, loaded); });
+    with_view(disks, [&](const auto& d) {
+      push_in_sweep(d, rules, contact_of(0, other), sweep, {.loaded = loaded, .crowded = true});
+    });
     return Vec2{disks.x[0], disks.y[0]};
   };
   const DiskId floor = wall_partner(Side::bottom);
