@@ -13,7 +13,7 @@
 namespace carom {
 namespace {
 
-// Whatever moves them, disks keep the sign of a velocity of 0 across gravity: the engine's kernels leave it alone too.
+// Disks keep the sign of a zero velocity across gravity, since the engine's kernels do not change that velocity either.
 TEST(Drift, GravityDownwardsLeavesTheVelocityAlongXAlone) {
   for (const double t : {-0.5, 0.5}) {
     double x = 1.0, y = 2.0, vx = -0.0, vy = 3.0;
@@ -23,7 +23,7 @@ TEST(Drift, GravityDownwardsLeavesTheVelocityAlongXAlone) {
   }
 }
 
-// (14), (15), (20), (21) with numbers whose products are exact in binary.
+// (14), (15), (20), (21), with numbers whose products are exact in binary.
 TEST(Drift, IsTheFormula) {
   double x = 1.0, y = 2.0, vx = 0.5, vy = -0.25;
   drift<false>(x, y, vx, vy, 4.0, 8.0);
@@ -50,7 +50,8 @@ TEST(Drift, WithoutGravityBothKindsGiveTheSameBits) {
   }
 }
 
-// A parabola has no truncation error: energy stays, any division of the time gives the same place, t and -t cancel.
+// A parabola has no truncation error: energy is conserved, the place does not depend on how the time is divided, and t
+// followed by -t cancels.
 TEST(Drift, ParabolaIsExactAndReversible) {
   test::Draws draws(2);
   for (int k = 0; k < 1000; ++k) {
@@ -69,7 +70,7 @@ TEST(Drift, ParabolaIsExactAndReversible) {
   }
 }
 
-// Fall from rest: y = -g t^2 / 2, however many steps it takes (a first-order rule would be out by g t dt / 2).
+// Fall from rest: y = -g t^2 / 2 for any number of steps. (A first-order rule would be wrong by g t dt / 2.)
 TEST(Drift, FreeFallHasNoErrorOfTheStep) {
   double x = 0.0, y = 0.0, vx = 0.0, vy = 0.0;
   for (int k = 0; k < 1000; ++k) drift<true>(x, y, vx, vy, 0.01, 9.81);
@@ -77,8 +78,8 @@ TEST(Drift, FreeFallHasNoErrorOfTheStep) {
   EXPECT_NEAR(vy, -98.1, 1e-11);
 }
 
-// (24): u = v dt has variance 2 D dt a component. 40000 draws; variance of the estimate 2 / n relative; 4 standard
-// errors.
+// (24): u = v dt has variance 2 D dt in each component. With n = 40000 draws the estimate has a relative variance of 2
+// / n; the tolerance is 4 standard errors.
 TEST(Brownian, DisplacementOfAStepHasVarianceTwoDdt) {
   constexpr int n = 20000;
   const double diffusion = 0.3;
@@ -92,8 +93,8 @@ TEST(Brownian, DisplacementOfAStepHasVarianceTwoDdt) {
   EXPECT_NEAR(variance / (2.0 * diffusion * dt), 1.0, 4.0 * std::sqrt(2.0 / (2.0 * n)));
 }
 
-// 900 disks that never meet: mean square displacement 4 D t; r^2 is exponential, so one standard error is the mean over
-// sqrt(n). Both methods, 3 standard errors.
+// 900 disks that never meet have a mean square displacement of 4 D t. r^2 is exponentially distributed, so the standard
+// error is the mean over sqrt(n). Both methods; the tolerance is 3 standard errors.
 TEST(Brownian, FreeMeanSquareDisplacementIsFourDt) {
   constexpr int side = 30;
   for (Method method : test::stepping_methods) {
@@ -118,7 +119,7 @@ TEST(Brownian, FreeMeanSquareDisplacementIsFourDt) {
   }
 }
 
-// Wrap of a drifting centre: per axis, only where asked for.
+// A centre that drifts is wrapped along each axis separately, and only along those requested.
 TEST(Wrap, PerAxis) {
   Domain box;
   box.width = 10.0;

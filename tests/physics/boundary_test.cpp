@@ -1,4 +1,4 @@
-// Walls with and without gravity, restitution of walls, nearest image and wrapping.
+// Walls with and without gravity, their restitution, the nearest image, and wrapping.
 #include "core/physics/boundary.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 using test::box_of;
 using test::Periodic;
 
-// x - r <= 0 and so on: touching counts, and the sign says inside or beyond.
+// A disk reaches a wall if x - r <= 0, and so on: touching counts, and the sign says whether it is inside or beyond.
 TEST(Walls, ReachBeyondEachSide) {
   const Domain box = box_of(10.0, 20.0);
   EXPECT_EQ(reach_beyond(Side::left, 1.0, 5.0, 1.0, box), 0.0);
@@ -51,12 +51,13 @@ TEST(Walls, TouchingCoordinateTouches) {
 
 TEST(Walls, TimeSinceWithoutGravity) {
   for (Side side : all_sides) EXPECT_EQ(time_since_wall(side, 0.5, 2.0, 0.0), 0.25);
-  EXPECT_EQ(time_since_wall(Side::left, 0.5, 2.0, 9.0), 0.25);  // side walls do not feel it
+  EXPECT_EQ(time_since_wall(Side::left, 0.5, 2.0, 9.0), 0.25);  // gravity does not act along x
   EXPECT_EQ(time_since_wall(Side::right, 0.5, 2.0, 9.0), 0.25);
   EXPECT_EQ(time_since_wall(Side::bottom, 0.0, 2.0, 9.0), 0.0);  // just touching
 }
 
-// Start on the wall, drift by t under gravity: the time found is t. At the ceiling the disk must still be going up.
+// A disk starts on the wall and drifts by t under gravity; then the time found must be t. At the ceiling the disk must
+// still be going up.
 TEST(Walls, TimeSinceWithGravityUndoesTheDrift) {
   test::Draws draws(1);
   for (int k = 0; k < 5000; ++k) {
@@ -74,14 +75,14 @@ TEST(Walls, TimeSinceWithGravityUndoesTheDrift) {
   }
 }
 
-// A disk deeper below the floor than its speed can have carried it was pushed there: its path never was inside.
+// A disk deeper below the floor than its speed can have carried it was pushed there: its path was never inside the box.
 TEST(Walls, NeverInsideIsInfinity) {
   EXPECT_EQ(time_since_wall(Side::bottom, 1.0, 1.0, 0.75), HUGE_VAL);
   EXPECT_TRUE(std::isfinite(time_since_wall(Side::bottom, 1.0, 1.0, 0.5)));
 }
 
-// One disk against each wall through an engine: it comes back with -wall_restitution times its speed, from the wall and
-// at the time of contact, not from beyond and not at the end of the step.
+// An engine runs one disk against each wall: it comes back with -wall_restitution times its speed, from the wall and at
+// the time of contact, not from beyond the wall and not at the end of the step.
 TEST(Walls, EnginesReflectAtTheWallWithItsRestitution) {
   for (Method method : test::stepping_methods) {
     for (const double restitution : {1.0, 0.5}) {
@@ -128,8 +129,8 @@ TEST(WrapCoordinate, HalfOpenInterval) {
   }
 }
 
-// The images above are offset to the right: what leaves through the top comes back that far to the left, a box lower.
-// What is below 0 by less than the height can tell is at 0, and has crossed nothing.
+// The images above are offset to the right: a disk that leaves through the top enters at the bottom, shifted to the
+// left by the offset. A disk below 0 by less than the rounding of the height is put at 0, and has not crossed the side.
 TEST(WrapSheared, MovesAlongByTheOffset) {
   const Domain box = box_of(20.0, 10.0, Periodic::both);
   const auto expect = [&](Vec2 from, Vec2 to, double rows) {
@@ -142,14 +143,14 @@ TEST(WrapSheared, MovesAlongByTheOffset) {
   expect({19.0, -0.5}, {2.0, 9.5}, 1);
   expect({5.0, -1e-20}, {5.0, 0.0}, 0);
   expect({-1.0, 4.0}, {19.0, 4.0}, 0);
-  // Further than a box, where a step is far too long.
+  // Steps that are far too long: the disk moves further than the box is high.
   expect({5.0, -10.0}, {8.0, 0.0}, 1);
   expect({5.0, 20.0}, {19.0, 0.0}, -2);
   expect({5.0, 47.5}, {13.0, 7.5}, -4);
   expect({5.0, -10.5}, {11.0, 9.5}, 2);
 }
 
-// wall_restitution is that of sides which are no walls, too, where nothing bounces.
+// Sides that are no walls have a restitution, too, but nothing bounces there.
 TEST(Walls, DissipateWhereSidesAreWalls) {
   Domain box = box_of(10.0, 10.0, Periodic::both);
   box.restitutions.fill(0.5);

@@ -1,4 +1,4 @@
-// How far places are from all obstacles, at least: never more than they are, and not much less.
+// The clearance of a place is at most its distance from the nearest obstacle, and not much smaller.
 #include "core/disks/clearance.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace carom {
 namespace {
 
 constexpr std::size_t cells = 4000;
-constexpr double cell = 0.5;  // 80 by 50 of them
+constexpr double cell = 0.5;  // 80 by 50 cells
 
 Domain box_of(bool periodic) {
   return test::box_of(40.0, 25.0, periodic ? test::Periodic::both : test::Periodic::none);
@@ -41,7 +41,7 @@ double distance(const Clearance::Shape& s, double x, double y) {
   return std::hypot(px - share * s.along.x, py - share * s.along.y) - s.radius;
 }
 
-// The distance of the nearest shape, images within two periods included.
+// The distance from the nearest shape, including images within two periods.
 double nearest(const std::vector<Clearance::Shape>& shapes, double x, double y, const Domain& box) {
   const int periods = box.periodic_x() ? 2 : 0;
   double least = HUGE_VAL;
@@ -71,9 +71,9 @@ TEST_P(Clear, NothingIsNearerThanItSays) {
       const double is = nearest(shapes, x, y, box);
       ASSERT_LT(known, std::max(is, 0.0) + 1e-12) << x << ' ' << y;
       clear += known > cell ? 1 : 0;
-      // A square around a circle is at 1/sqrt(2) of the distance at least; the place and the shape are somewhere in
-      // their cells, and shapes are marked half a diagonal too far, or their whole rectangle where they reach beyond a
-      // wall.
+      // Distances further off are counted in cells along one axis, which gives at least 1/sqrt(2) of them. Place and
+      // shape may be anywhere in their cells; shapes are marked half a diagonal too far, and those that reach beyond a
+      // wall with their whole rectangle.
       if (GetParam()) {
         ASSERT_GE(known, is / std::sqrt(2.0) - 3.5 * cell) << x << ' ' << y;
       }
@@ -108,10 +108,10 @@ INSTANTIATE_TEST_SUITE_P(Sides, Clear, testing::Bool());
 TEST(Clearance, OfAnEmptyBoxIsWide) {
   const Clearance clearance(box_of(true), std::vector<Clearance::Shape>{}, cells);
   EXPECT_TRUE(clearance.is_clear({-5.0, -5.0}, {45.0, 30.0}));
-  EXPECT_FALSE(clearance.is_clear({80.0, 10.0}, {81.0, 11.0})) << "its middle is out of the box";
+  EXPECT_FALSE(clearance.is_clear({80.0, 10.0}, {81.0, 11.0})) << "the middle of this rectangle is out of the box";
 }
 
-// What a wall that moves sweeps over may be longer than several periods, and begin far from the box.
+// The area swept by a moving wall may be longer than several periods, and begin far from the box.
 TEST(Clearance, OfWhatIsLongerThanAPeriod) {
   const std::vector<Clearance::Extent> swept{{{-400.0, 10.0}, {900.0, 11.0}}};
   const Clearance clearance(box_of(true), swept, cells);

@@ -1,4 +1,4 @@
-// What must stay over whole runs of random scenes: momentum, energy, and the balance of forces.
+// Conservation in whole runs of random scenes: momentum, energy, and the balance of forces.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ class Conservation : public testing::TestWithParam<Method> {
     if (periodic) test::set_sides(s.box, SideKind::periodic, SideKind::periodic);
     return s;
   }
-  // A common radius and mass for odd seeds, so that every kind of column is run.
+  // Odd seeds have a common radius and mass, so that runs with and without these columns are tested.
   static State start_of(const Scene& s, std::uint64_t seed) {
     test::Draws draws(seed);
     const test::Ranges equal{1.0, 1.0, 3.0, 3.0, 2.0};
@@ -34,7 +34,7 @@ class Conservation : public testing::TestWithParam<Method> {
 INSTANTIATE_TEST_SUITE_P(Methods, Conservation, testing::ValuesIn(test::stepping_methods),
                          [](const auto& method) { return test::name_of(method.param); });
 
-// Nothing but pairs acts in a periodic box: momentum stays to 1e-12 of the sum of |m v|, for any restitution.
+// In a periodic box only pairs exchange momentum: it is conserved to 1e-12 of the sum of |m v|, for any restitution.
 TEST_P(Conservation, MomentumInAPeriodicBox) {
   for (const double e : {1.0, 0.6}) {
     for (std::uint64_t seed = 0; seed < 4; ++seed) {
@@ -53,7 +53,7 @@ TEST_P(Conservation, MomentumInAPeriodicBox) {
   }
 }
 
-// e = 1 without gravity: every collision keeps the energy to rounding, walls too, overlaps or not.
+// e = 1 without gravity: every collision conserves the energy to rounding, at walls, too, and with or without overlaps.
 TEST_P(Conservation, EnergyOfElasticDisks) {
   for (const bool periodic : {false, true}) {
     for (std::uint64_t seed = 10; seed < 14; ++seed) {
@@ -70,7 +70,7 @@ TEST_P(Conservation, EnergyOfElasticDisks) {
   }
 }
 
-// e < 1: the total energy is never above the start's by more than 1e-9 of it, and falls.
+// e < 1: the total energy is never above that of the start by more than 1e-9 of it, and it falls.
 TEST_P(Conservation, DissipatingDisksNeverGainEnergy) {
   for (const double g : {0.0, 0.5}) {
     for (std::uint64_t seed = 20; seed < 24; ++seed) {
@@ -90,7 +90,7 @@ TEST_P(Conservation, DissipatingDisksNeverGainEnergy) {
   }
 }
 
-// e = 1 with gravity, walls elastic: the mean of |change of energy| over seeds shrinks at least linearly with dt.
+// e = 1 with gravity and elastic walls: the mean of |change of energy| over seeds shrinks at least linearly with dt.
 TEST_P(Conservation, DriftUnderGravityShrinksWithTheStep) {
   constexpr std::uint64_t seeds = 12;
   const double longest = 0.04;
@@ -111,8 +111,9 @@ TEST_P(Conservation, DriftUnderGravityShrinksWithTheStep) {
   EXPECT_LE(drift[2], drift[1] + 1e-12);
 }
 
-// The floor's impulse less the ceiling's is what gravity gave in the time plus what momentum changed (N m g in the
-// mean, at any density); likewise left and right without gravity. Exact, so every wall hit is accounted for.
+// The floor's impulse minus the ceiling's is the impulse of gravity plus the change of momentum (N m g per time on
+// average, at any density). Without gravity the same holds for left and right. This is exact, so every wall hit is
+// accounted for.
 TEST_P(Conservation, ForcesOnTheWallsBalance) {
   Scene s = scene(0.01, 10.0, false);
   s.physics.gravity = 0.5;
@@ -130,8 +131,8 @@ TEST_P(Conservation, ForcesOnTheWallsBalance) {
   }
 }
 
-// Clausius: sum m r.v changes by 2 K and by r.impulse of every collision, which the virial and the walls' impulses
-// count.
+// Clausius: sum m r.v changes by 2 K per time and by r.impulse in every collision, which the virial and the walls'
+// impulses count.
 TEST(ConservationExact, TheVirialTheoremHoldsToRounding) {
   constexpr double width = 40.0, height = 30.0, radius = 1.0;
   for (std::uint64_t seed = 40; seed < 43; ++seed) {
@@ -154,7 +155,7 @@ TEST(ConservationExact, TheVirialTheoremHoldsToRounding) {
   }
 }
 
-// Of disks that begin at rest, or come to rest, the drift is of the momentum that there was or is.
+// For disks that begin at rest, or come to rest, the drift of momentum is relative to the larger momentum.
 TEST(MomentumDrift, IsOfTheLargerMomentum) {
   const Momentum none, some{3.0, 4.0, 10.0};
   EXPECT_EQ(momentum_drift(none, some), 0.5);

@@ -1,4 +1,4 @@
-// What is done to whole disks is done to each of their columns.
+// Operations on whole disks act on each of their columns.
 #include "core/disks/disk_columns.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t count = 7;
 constexpr DiskColumns all_columns{.radius = true, .mass = true, .spin = true};
 
-// All that is known of a disk is told by its id.
+// A disk whose values all follow from its id.
 Disk disk_of(DiskId id) {
   const double k = id;
   return {k, k + 0.125, k + 0.25, -k, 1.0 + k, 2.0 + k, id, 3.0 - k};
@@ -26,7 +26,7 @@ Disks rough_disks() {
   return d;
 }
 
-// Smooth and of one size: radius, mass and spin are no columns.
+// Smooth disks of one size: without columns for radius, mass and spin.
 Disks equal_disks() {
   Disks d;
   for (DiskId id = 0; id < count; ++id) {
@@ -104,7 +104,7 @@ TEST(DiskColumns, RoomIsMadeInThoseThatDisksHave) {
       [&](const auto& column) { EXPECT_EQ((d.*column.entries).capacity(), column.is_in({.mass = true}) ? 100U : 0U); });
 }
 
-// They once lost what they have as rough disks: their spins and their moment of inertia.
+// Copies of a group once lost the columns of rough disks: their spins and their moment of inertia.
 TEST(DiskColumns, DisksOfAGroupHaveAllOfThem) {
   const Disks some = disks_of(rough_disks(), {2, 5});
   EXPECT_EQ(some.inertia, 0.5);

@@ -1,4 +1,5 @@
-// Two disks: contact, time of contact against more digits, and the collision rule (23) of docs/original.md.
+// Two disks: contact, the time of contact compared with a computation in more digits, and the collision rule (23) of
+// docs/original.md.
 #include "core/physics/disk_pair.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +17,7 @@ namespace {
 using test::Wide;
 using test::wide;
 
-// The smaller root of (12) in 64 bits of mantissa; infinity where the paths miss.
+// The smaller root of (12) with a mantissa of 64 bits; infinity if the paths miss.
 Wide touching_time_with_more_digits(const Relative& r, double reach) {
   const Wide dx = wide(r.dx), dy = wide(r.dy), dvx = wide(r.dvx), dvy = wide(r.dvy), s = wide(reach);
   const Wide a = dvx * dvx + dvy * dvy;
@@ -26,7 +27,7 @@ Wide touching_time_with_more_digits(const Relative& r, double reach) {
   return (dx * dx + dy * dy - s * s) / (std::sqrt(discriminant) - (dx * dvx + dy * dvy));
 }
 
-// Two disks at distance d (over reach), whose straight paths pass at `miss` times reach from each other.
+// Two disks at a distance given in units of reach, whose straight paths pass each other at `miss` times reach.
 Relative towards(double distance, double miss, double reach, double angle, double speed) {
   const double along = std::sqrt(distance * distance - miss * miss) * reach;
   const double across = miss * reach;
@@ -42,8 +43,8 @@ TEST(ContactTime, HeadOn) {
   EXPECT_EQ(touching_time({5.0, 2.0, -2.0, 0.0}, 1.0), HUGE_VAL);
 }
 
-// From touching to 1e9 reaches away, from head-on to grazing within 1e-9, overlapping too. The error allowed is that of
-// inputs rounded in the last place: eps t, and eps reach / speed over the square root of the distance from grazing.
+// From touching to 1e9 reaches apart, from head-on to grazing within 1e-9, and overlapping. The error allowed is that
+// of inputs rounded in the last place: eps t, and eps reach / speed over the square root of the distance from grazing.
 TEST(ContactTime, KeepsItsDigitsFarAwayAndGrazing) {
   test::Draws draws(1);
   double worst = 0.0;
@@ -64,7 +65,7 @@ TEST(ContactTime, KeepsItsDigitsFarAwayAndGrazing) {
   EXPECT_LT(worst, 4.0 * 0x1p-52);
 }
 
-// What the textbook form of the root, (-b - sqrt(b^2 - a c)) / a, loses and ours does not: disks about to touch.
+// Disks about to touch: the textbook form of the root, (-b - sqrt(b^2 - a c)) / a, loses digits, ours does not.
 TEST(ContactTime, DoesNotCancelWhereTheTextbookFormDoes) {
   const Relative r{1.0 + 0x1p-40, 0.0, -1.0, 0.0};
   const double exact = 0x1p-40;
@@ -74,10 +75,10 @@ TEST(ContactTime, DoesNotCancelWhereTheTextbookFormDoes) {
   const double textbook = (-b - std::sqrt(b * b - slant.speed2() * (slant.distance2() - 1.0))) / slant.speed2();
   const auto digits = static_cast<double>(touching_time_with_more_digits(slant, 1.0));
   EXPECT_GT(std::abs(textbook / digits - 1.0), 1e-7);
-  EXPECT_LT(std::abs(touching_time(slant, 1.0) / digits - 1.0), 1e-5);  // distance2 - 1 itself has 6 digits left
+  EXPECT_LT(std::abs(touching_time(slant, 1.0) / digits - 1.0), 1e-5);  // distance2 - 1 itself has only 6 digits
 }
 
-// After touching_time the distance is the sum of the radii, to the rounding of the coordinates.
+// After touching_time the distance is the sum of the radii, up to the rounding of the coordinates.
 TEST(ContactTime, LeadsToContact) {
   test::Draws draws(3);
   for (int k = 0; k < 2000; ++k) {
@@ -92,9 +93,9 @@ TEST(ContactTime, LeadsToContact) {
 struct Collision {
   Relative r;
   double m1, m2, e;
-  double vx1, vy1, vx2, vy2;  // before
-  double wx1, wy1, wx2, wy2;  // after
-  double fast;                // largest speed, before or after
+  double vx1, vy1, vx2, vy2;  // before the collision
+  double wx1, wy1, wx2, wy2;  // after it
+  double fast;                // the largest speed, before or after
 };
 
 Collision random_collision(test::Draws& draws, double mass_low, double mass_high) {
@@ -118,8 +119,8 @@ void apply(Collision& c) {
       {std::hypot(c.vx1, c.vy1), std::hypot(c.vx2, c.vy2), std::hypot(c.wx1, c.wy1), std::hypot(c.wx2, c.wy2)});
 }
 
-// For masses from 1e-6 to 1e6 and any e. Momentum to the rounding of the two momenta, (22) along the line of centres,
-// nothing across it.
+// For masses from 1e-6 to 1e6 and any e: momentum is conserved to the rounding of the two momenta, the normal velocity
+// follows (22), and the tangential velocity does not change.
 TEST(Collide, KeepsMomentumAndTangentialVelocityTurnsTheNormalOne) {
   test::Draws draws(4);
   for (int k = 0; k < 20000; ++k) {
@@ -138,7 +139,7 @@ TEST(Collide, KeepsMomentumAndTangentialVelocityTurnsTheNormalOne) {
   }
 }
 
-// Elastic: kinetic energy stays. Otherwise it falls by (1 - e^2) mu u_n^2 / 2, mu the reduced mass.
+// Elastic collisions conserve the kinetic energy. Others lower it by (1 - e^2) mu u_n^2 / 2, with mu the reduced mass.
 TEST(Collide, EnergyFallsByTheFormula) {
   test::Draws draws(5);
   for (int k = 0; k < 20000; ++k) {
@@ -153,7 +154,7 @@ TEST(Collide, EnergyFallsByTheFormula) {
   }
 }
 
-// (17)-(19) and (23) of docs/original.md as written there, with more digits: rotate into the contact frame, change the
+// (17)-(19) and (23) of docs/original.md as written there, in more digits: rotate into the contact frame, change the
 // normal components, rotate back.
 void rule_as_printed(const Collision& c, Wide& wx1, Wide& wy1, Wide& wx2, Wide& wy2) {
   const Wide dx = wide(c.r.dx), dy = wide(c.r.dy), e = wide(c.e);
@@ -183,8 +184,8 @@ TEST(Collide, IsRule23) {
   }
 }
 
-// docs/reference_values.md, exact cases: m = 1 and 3, e = 1, the first flies along a line 0.5 above the second's
-// centre.
+// docs/reference_values.md, exact cases: m = 1 and 3, e = 1; the first disk flies along a line 0.5 above the second
+// one's centre.
 TEST(Collide, TwoDisksOfTheReferenceValues) {
   const double h = std::sqrt(0.75);
   double vx1 = 1.0, vy1 = 0.0, vx2 = 0.0, vy2 = 0.0;
@@ -196,7 +197,7 @@ TEST(Collide, TwoDisksOfTheReferenceValues) {
   EXPECT_NEAR(vy2, -0.216506351, 1e-9);
 }
 
-// Equal masses, e = 1: the normal components swap (16), to the bit on the axis.
+// Equal masses, e = 1: the normal components are exchanged (16), on the axes to the last bit.
 TEST(Collide, EqualMassesSwap) {
   double vx1 = 0.75, vy1 = 0.5, vx2 = -0.25, vy2 = -1.0;
   collide({2.0, 0.0, -1.0, -1.5}, equal_shares, 1.0, vx1, vy1, vx2, vy2);

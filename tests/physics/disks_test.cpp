@@ -31,7 +31,8 @@ void expect_in_order(const std::vector<DiskId>& ids) {
 TEST(ById, OrdersAnyIds) {
   EXPECT_TRUE(by_id({}).empty());
   std::mt19937 random(3);
-  for (const double share : {1.0, 0.9, 0.3, 0.26, 0.24, 0.01}) {  // of the ids up to the largest; also below a quarter
+  for (const double share :
+       {1.0, 0.9, 0.3, 0.26, 0.24, 0.01}) {  // ids per possible id; below a quarter by_id sorts
     for (int k = 0; k < 50; ++k) {
       std::vector<DiskId> ids(1 + random() % 300);
       const auto step = static_cast<DiskId>(1.0 / share);
@@ -43,7 +44,7 @@ TEST(ById, OrdersAnyIds) {
   expect_in_order({0xfffffffeU, 7, 0});
 }
 
-// A damaged file may say so: no disk is lost, and none named twice.
+// A damaged file may have an id twice: then no disk may be lost or listed twice.
 TEST(ById, AnIdThatStandsTwice) {
   expect_in_order({3, 3});
   expect_in_order({0, 1, 2, 1});

@@ -1,5 +1,5 @@
-// What an event of the exact method does to a disk, case by case: the TC model's elastic contacts and hops, what is
-// counted as inaccurate or as a loss of energy, and the least rebound of disks that e = 0 would leave together.
+// The effect of single events of the exact method on a disk: the TC model's elastic contacts and hops, what is counted
+// as inaccurate or as a loss of energy, and the least rebound of disks that would stick together with e = 0.
 #include "core/physics/exact_event.hpp"
 
 #include <gtest/gtest.h>
@@ -17,8 +17,8 @@ using test::contact_time;
 using test::disk_at;
 using test::tc_rules;
 
-// Luding and McNamara 1998: elastic where either disk collided less than contact_time ago; a contact that was longer
-// ago, by as much or more, is not.
+// Luding and McNamara 1998: a contact is elastic if either disk collided less than contact_time ago, not if that was
+// contact_time ago or earlier.
 TEST(TcPair, IsElasticWhereEitherDiskCollidedShortlyBefore) {
   const ExactRules rules = tc_rules();
   const double s = 1.0;
@@ -37,7 +37,7 @@ TEST(TcPair, IsElasticWhereEitherDiskCollidedShortlyBefore) {
   }
 }
 
-// Where no contact loses energy none is made elastic: none is inaccurate.
+// Contacts of elastic disks are elastic anyway: none is counted as inaccurate.
 TEST(TcPair, ElasticDisksAreNotHeld) {
   ExactRules rules = tc_rules();
   rules.restitution = 1.0;
@@ -49,8 +49,8 @@ TEST(TcPair, ElasticDisksAreNotHeld) {
   EXPECT_FALSE(impact.lost_energy);
 }
 
-// Rough disks of e = 1 may lose energy along their surfaces alone. Under the TC model they are smooth, which is
-// inaccurate; else friction acts.
+// Rough disks with e = 1 lose energy only along their surfaces. If the TC model makes the contact elastic they are
+// smooth, which is inaccurate; otherwise friction acts.
 TEST(TcPair, RoughDisksAreSmoothWhereItHoldsThem) {
   const Surfaces surfaces{0.5, {0.5, 0.1}, {}};
   for (const bool held : {true, false}) {
@@ -67,10 +67,11 @@ TEST(TcPair, RoughDisksAreSmoothWhereItHoldsThem) {
   }
 }
 
-// e = 0, by number or by a law, leaves a least rebound: disks must not meet again at that moment for ever.
+// With e = 0, given as a number or by a law, there is a least rebound; without it the disks would meet again at the
+// same moment for ever.
 TEST(LeastRebound, OfDisksThatStick) {
   RestitutionLaw law;
-  law.viscosity = 2.0;  // e(1) < 0 without its least value
+  law.viscosity = 2.0;  // e(1) would be negative without the least value
   for (const RestitutionLaw* of :
        {static_cast<const RestitutionLaw*>(nullptr), static_cast<const RestitutionLaw*>(&law)}) {
     ExactRules rules = tc_rules();
@@ -83,8 +84,8 @@ TEST(LeastRebound, OfDisksThatStick) {
   }
 }
 
-// A disk at rest on the floor leaves it with a quarter of g contact_time; from walls that gravity does not press it
-// against it does not hop, and one that leaves faster by itself is not slowed.
+// A disk at rest on the floor leaves it with a quarter of g contact_time. It does not hop from walls to which gravity
+// does not press it, and a disk that leaves faster by itself is not slowed.
 TEST(TcHop, OffTheFloor) {
   ExactRules rules = tc_rules();
   rules.gravity = 0.8;
@@ -102,7 +103,7 @@ TEST(TcHop, OffTheFloor) {
   EXPECT_EQ(at_ceiling.path.vy, 0.0);
 }
 
-// An impact on a wall is held, and then inaccurate, or loses energy: one of both.
+// An impact on a wall is either made elastic by the TC model, and then inaccurate, or it loses energy.
 TEST(TcWall, IsElasticShortlyAfterAContact) {
   const ExactRules rules = tc_rules();
   for (const bool held : {true, false}) {
@@ -116,7 +117,7 @@ TEST(TcWall, IsElasticShortlyAfterAContact) {
   }
 }
 
-// Held at a rough wall it keeps its spin.
+// If the TC model makes its impact on a rough wall elastic, a disk keeps its spin.
 TEST(TcWall, IsSmoothWhereItHoldsADisk) {
   const Surfaces surfaces{0.5, {}, {0.5, 0.1}};
   for (const bool moving : {false, true}) {
@@ -139,8 +140,8 @@ TEST(TcWall, IsSmoothWhereItHoldsADisk) {
   }
 }
 
-// A floor that rises ever faster presses a disk that lies on it by g + a, so that it hops by so much; its work is its
-// speed times the impulse.
+// A floor with upward acceleration a presses a disk that lies on it with g + a, so the hop is higher by as much; the
+// floor's work is its speed times the impulse.
 TEST(TcHop, OffAFloorThatAccelerates) {
   ExactRules rules = tc_rules();
   rules.gravity = 0.8;
@@ -154,12 +155,12 @@ TEST(TcHop, OffAFloorThatAccelerates) {
   EXPECT_DOUBLE_EQ(rests.path.vy, floor.speed + hop);
   EXPECT_DOUBLE_EQ(impact.impulse, 2.0 * hop);
   EXPECT_DOUBLE_EQ(impact.energy, 2.0 * hop * floor.speed);
-  // Contacts that are longer than the half period of 2 for which it accelerates make no longer hops.
+  // The floor accelerates only for half a period, 2; a longer contact_time does not raise the hop further.
   rules.contact_time = 100.0;
   ExactDisk at_rest = disk_at(5.0, 1.0 + floor.inset, 0.0, floor.speed);
   meet_side_at(rules, 0.0, Side::bottom, at_rest);
   EXPECT_DOUBLE_EQ(at_rest.path.vy, floor.speed + 0.25 * (0.8 * 100.0 + 0.5 * 2.0));
-  // A floor that gives way faster than disks fall is left alone.
+  // A disk is not sent after a floor that moves away faster than disks fall.
   rules.gravity = 0.2;
   rules.box.move_walls(2.5);
   ASSERT_EQ(rules.box.place(Side::bottom).acceleration, -0.5);
@@ -167,7 +168,7 @@ TEST(TcHop, OffAFloorThatAccelerates) {
   EXPECT_EQ(meet_side_at(rules, 0.0, Side::bottom, left_behind).impulse, 0.0);
 }
 
-// A sum of reasons, each of which is enough.
+// Energy may be lost for several reasons, each of which is enough.
 TEST(Dissipation, IsThatOfDisksLawsWallsSurfacesAndObstacles) {
   ExactRules rules;
   rules.box = test::box_of(10.0, 10.0);
@@ -193,7 +194,7 @@ TEST(Dissipation, IsThatOfDisksLawsWallsSurfacesAndObstacles) {
   EXPECT_TRUE(dissipates(pegs));
 }
 
-// A thermal side draws the spin where the walls are rough; beside smooth ones rough disks keep theirs.
+// A thermal side draws the spin if the walls are rough; if they are smooth, rough disks keep their spin.
 TEST(ThermalSide, DrawsTheSpinWhereWallsAreRough) {
   for (const bool rough : {true, false}) {
     const Surfaces surfaces{0.5, {0.5, HUGE_VAL}, rough ? Roughness{0.5, HUGE_VAL} : Roughness{}};
@@ -208,7 +209,7 @@ TEST(ThermalSide, DrawsTheSpinWhereWallsAreRough) {
   }
 }
 
-// Under the TC model a contact with a thermal side, or with one that moves, is a contact as any other.
+// In the TC model a contact with a thermal side, or with a moving one, counts as any other.
 TEST(TcWall, CountsContactsWithThermalSidesAndThoseThatMove) {
   ExactRules rules = tc_rules();
   rules.box.temperatures[0] = 3.0;
@@ -222,7 +223,7 @@ TEST(TcWall, CountsContactsWithThermalSidesAndThoseThatMove) {
   }
 }
 
-// What moves away from a side that moves faster than its hop is sent nowhere; what it hops with rubs nothing.
+// A disk that moves away from a moving side faster than its hop is left alone; and there is no friction in a hop.
 TEST(TcHop, OffASideThatADiskLeavesIsNone) {
   ExactRules rules = tc_rules();
   rules.gravity = 0.8;
@@ -242,8 +243,8 @@ TEST(TcHop, OffASideThatADiskLeavesIsNone) {
   }
 }
 
-// Across the top of a sheared box the second disk's image collides, which moves faster by the jump. A disk that is out
-// of the box is brought back, and what the shear does is all the energy that comes.
+// Across the top of a sheared box the second disk collides as its image, whose velocity differs by the jump. A disk
+// that is out of the box is put back into it, and the change of energy is the work of the shear.
 TEST(CollideSheared, AcrossTheTopGivesTheWorkOfTheShear) {
   ExactRules rules;
   rules.box = test::box_of(20.0, 10.0, test::Periodic::both);
@@ -252,7 +253,7 @@ TEST(CollideSheared, AcrossTheTopGivesTheWorkOfTheShear) {
   const double s = 0.25;
   const double offset = 3.0 + 4.0 * s;
   for (const bool first_crosses : {true, false}) {
-    // At time s the first is at (5, y), and the second one's image at (6.2, y + 1.6).
+    // At time s the first disk is at (5, y), and the second one's image at (6.2, y + 1.6).
     const double y = first_crosses ? 10.05 : 8.35;
     ExactDisk a = disk_at(5.0 - 0.5 * s, y - s, 0.5, 1.0);
     ExactDisk b = disk_at(6.2 - offset + 5.0 * s, y + 1.6 - 10.0 + s, -5.0, -1.0);
@@ -276,7 +277,8 @@ TEST(CollideSheared, AcrossTheTopGivesTheWorkOfTheShear) {
   }
 }
 
-// An inner wall, of its own restitution, goes by no law of the disk that has its number; a fixed disk does.
+// An inner wall has a restitution of its own: the law of the disk with the same number does not apply to it, but it
+// does to a fixed disk.
 TEST(Dissipation, OfAnInnerWallIsItsOwn) {
   const RestitutionLaw law{0.0, {1, 2}, {{0, 1, {0.5, 0.0}}}};
   for (const auto kind : {ObstacleKind::wall, ObstacleKind::disk}) {
@@ -289,7 +291,7 @@ TEST(Dissipation, OfAnInnerWallIsItsOwn) {
   }
 }
 
-// 257 impacts that lose energy within 1e-12 of a window are a collapse; as many over twice that time are none.
+// 257 impacts that lose energy within 1e-12 of a window are a collapse; the same number within a longer time is not.
 TEST(Burst, IsOfMoreThan256ImpactsInAVanishingTime) {
   const double window = 8.0;
   Burst burst;

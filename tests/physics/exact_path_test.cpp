@@ -1,5 +1,5 @@
-// When a path has an event at a side or with another path, where it is rare in runs: at rest along a periodic side, at
-// a sink that it leaves, and with an image that is not the nearest one.
+// Times of events with a side or with another path in cases that are rare in runs: at rest along a periodic side, at a
+// sink that the disk leaves, and with an image that is not the nearest one.
 #include "core/physics/exact_path.hpp"
 
 #include <gtest/gtest.h>
@@ -11,8 +11,9 @@
 namespace carom {
 namespace {
 
-// One event for the axis: a quarter of the period, 3, at the side that the disk moves towards. At rest it falls that
-// far in sqrt(2 3 / g); one that moves up has a bound that it cannot beat, 3 = v t + g t^2 / 2.
+// There is one event for each axis: the disk has moved by a quarter of the period, 3, towards the side to which it
+// moves. From rest it falls that far in sqrt(2 3 / g). For a disk that moves up the time is a lower bound, from 3 = v t
+// + g t^2 / 2.
 TEST(TimeToCrossing, IsThatOfAQuarterOfThePeriod) {
   const Domain box = test::box_of(8.0, 12.0, test::Periodic::both);
   const Gravity g(1.5);
@@ -32,7 +33,7 @@ TEST(TimeToCrossing, IsThatOfAQuarterOfThePeriod) {
   EXPECT_DOUBLE_EQ(time(Side::top, 0.0, 2.0, 0.0), 1.5);
 }
 
-// It takes a disk that touches it, wherever that moves.
+// A sink takes a disk that touches it, even if the disk moves away.
 TEST(SideTime, OfASinkIsNowWhereADiskTouchesIt) {
   Domain box = test::box_of(8.0, 12.0);
   box.sides[1] = SideKind::sink;
@@ -47,8 +48,8 @@ TEST(SideTime, OfASinkIsNowWhereADiskTouchesIt) {
   EXPECT_EQ(time(7.0, -1.0), never);
 }
 
-// In a box 4 high and wide a disk of radius 0.5 flies away from the nearest image of another one, 1.5 away along each
-// axis, and into the image behind it, 2.5 away.
+// The box is 4 high and wide. A disk of radius 0.5 flies away from the nearest image of another one, 1.5 away along
+// each axis, and into the image behind it, 2.5 away.
 TEST(TimeToContact, IsThatOfTheImageBehindTheNearest) {
   const Domain box = test::box_of(4.0, 4.0, test::Periodic::both);
   const auto time = [&](double dx, double dy, double vx, double vy, double end = 9.0) {
@@ -64,12 +65,12 @@ TEST(TimeToContact, IsThatOfTheImageBehindTheNearest) {
   const double diagonal = 2.5 - std::sqrt(0.5);
   EXPECT_NEAR(time(1.5, 1.5, 1.0, 1.0), diagonal, 1e-14);
   EXPECT_NEAR(time(-1.5, 1.5, -1.0, 1.0), diagonal, 1e-14);
-  // Disks that overlap, as rounding may have it, meet now.
+  // Disks that overlap, as they may by rounding, meet now.
   EXPECT_EQ(time_to_contact({0.9, 0.0, -1.0, 0.0}, 1.0), 0.0);
   EXPECT_EQ(time_to_contact({0.9, 0.0, 1.0, 0.0}, 1.0), never);
 }
 
-// In a shear flow the images in the row of a disk itself are those of a box at rest.
+// In a shear flow the images in a disk's own row are as in a box without shear.
 TEST(TimeToContact, InAFlowIsThatOfTheImageInItsRowToo) {
   Domain box = test::box_of(4.0, 40.0, test::Periodic::both);
   box.shear = {0.25, 10.0, 0.75};
@@ -79,13 +80,14 @@ TEST(TimeToContact, InAFlowIsThatOfTheImageInItsRowToo) {
   }
 }
 
-// Images above slide by the jump: the one above the nearest is met where it will be.
+// The images in the row above move by the jump: the contact is where the image will be then.
 TEST(TimeToContact, InAFlowIsThatOfTheImageThatMoves) {
   Domain box = test::box_of(40.0, 4.0, test::Periodic::both);
   box.shear.rate = 0.25;
   box.shear.jump = 1.0;
-  box.shear.offset = -2.0;  // -1.5 where the paths begin
-  // Up by 2.5 along y in time 1.5 until contact; the image below comes from -offset, at -jump, and is met head on.
+  box.shear.offset = -2.0;  // -1.5 at the start of the paths
+  // The disk moves up by 2.5 in a time of 1.5 until contact; the image below starts from -offset, moves with -jump, and
+  // is met head-on.
   const double t = collision_time({0.5, 10.0, 0.5, 0.0, 0.0}, {0.5, 8.5, 2.0, 1.0, 1.0}, 1.0, box, 0.0, 9.0);
   EXPECT_DOUBLE_EQ(t, 2.0);
   const double back = collision_time({0.5, 10.0, 3.5, 0.0, 0.0}, {0.5, 11.5, 2.0, -1.0, -1.0}, 1.0, box, 0.0, 9.0);

@@ -1,5 +1,5 @@
-// Exact cases (docs/reference_values.md, "Exact cases") that stepping methods reproduce, to rounding or converging with
-// dt.
+// Exact cases (docs/reference_values.md, "Exact cases"), which the stepping methods reproduce to rounding or converge
+// to with dt.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,7 +24,8 @@ class Golden : public testing::TestWithParam<Method> {
 INSTANTIATE_TEST_SUITE_P(Methods, Golden, testing::ValuesIn(test::stepping_methods),
                          [](const auto& method) { return test::name_of(method.param); });
 
-// Masses 1 and 3, e = 1, the first along a line 0.5 above the second's centre, r1 + r2 = 1; contact at 4 - sqrt(0.75).
+// Masses 1 and 3, e = 1, the first disk along a line 0.5 above the second one's centre, r1 + r2 = 1; contact at 4 -
+// sqrt(0.75).
 TEST_P(Golden, TwoDisks) {
   const Scene s = scene(20.0, 0.03, 6.0);
   const State end = test::run(s, test::state_of(s, {{1.0, 5.5, 1.0, 0.0, 0.4, 1.0}, {5.0, 5.0, 0.0, 0.0, 0.6, 3.0}}));
@@ -40,7 +41,7 @@ TEST_P(Golden, TwoDisks) {
   EXPECT_NEAR(end.counters.virial, 1.5 * std::sqrt(0.75), 1e-13);
 }
 
-// Equal masses in a row hand the velocity on, with gaps and without.
+// Equal masses in a row pass the velocity on, with gaps between them or without.
 TEST_P(Golden, NewtonsCradle) {
   for (const double gap : {0.1, 0.0}) {
     const Scene s = scene(30.0, 0.01, 6.0);
@@ -50,16 +51,18 @@ TEST_P(Golden, NewtonsCradle) {
     for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(end.disks.vx[i], 0.0, 1e-13) << gap;
     EXPECT_NEAR(end.disks.vx[5], 1.0, 1e-13) << gap;
     if (gap > 0.0) {
-      EXPECT_EQ(end.counters.collisions, 5U);  // in contact, rounding may add some of no weight
+      EXPECT_EQ(end.counters.collisions,
+                5U);  // in contact there may be further collisions, by rounding, that change nothing
     }
-    // The last one sets out when the first has covered all gaps.
+    // The last disk starts when the first one has covered all gaps.
     const double place = 4.0 + 4.0 * (1.0 + gap) + 6.0 - 1.0 - 4.0 * gap;
     EXPECT_NEAR(end.disks.x[5], place, gap > 0.0 ? 1e-12 : 0.05);
   }
 }
 
-// Hard rods: disks in a row never pass, so the k-th is on the k-th of the sorted free paths, shrunk by the diameters.
-// The error is that of adding v dt to x 10000 times, half a unit in the last place of x < 512 each.
+// Hard rods: disks in a row never pass each other, so the k-th disk is on the k-th of the sorted free paths, shrunk by
+// the diameters. The tolerance is the error of adding v dt to x 10000 times, half a unit in the last place of x < 512
+// each.
 TEST_P(Golden, HardRods) {
   constexpr std::size_t n = 12;
   test::Draws draws(7);
@@ -79,7 +82,8 @@ TEST_P(Golden, HardRods) {
   }
 }
 
-// A wall, a light disk, and a heavy one coming in, mass ratio 100^k: the digits of pi.
+// A wall, a light disk at rest, and a heavy disk coming in, with mass ratio 100^k: the number of collisions has the
+// digits of pi.
 TEST_P(Golden, CollisionsCountDigitsOfPi) {
   const Count expected[] = {3, 31, 314};
   const double dt[] = {0.01, 0.001, 0.0001};
@@ -87,7 +91,7 @@ TEST_P(Golden, CollisionsCountDigitsOfPi) {
     const State close =
         test::run(scene(100.0, dt[k], 6.0),
                   test::state_of({}, {{2.0, 5.0, 0.0, 0.0, 0.5, 1.0}, {5.0, 5.0, -1.0, 0.0, 0.5, std::pow(100.0, k)}}));
-    // The last few come late, when the two are far apart: a long step does.
+    // The last few collisions come late, when the disks are far apart, so a longer dt is enough for them.
     State apart = close;
     apart.time = 0.0;
     apart.counters.steps = 0;
@@ -119,9 +123,9 @@ Bounces drop(const Scene& scene, double height) {
   return b;
 }
 
-// Dropped from h with restitution e it comes to rest at sqrt(2 h / g) (1 + e)/(1 - e), after a path of
-// h (1 + e^2)/(1 - e^2). What a step cannot resolve is a first-order error: a
-// quarter of the step leaves less than a third of it.
+// Dropped from height h with restitution e the disk comes to rest at sqrt(2 h / g) (1 + e)/(1 - e), after a path of h
+// (1 + e^2)/(1 - e^2). Bounces too short for a step make a first-order error: with a quarter of the step less than a
+// third of it is left.
 TEST_P(Golden, BouncingBall) {
   for (const double e : {0.5, 0.7}) {
     const double h = 4.0;
@@ -137,7 +141,7 @@ TEST_P(Golden, BouncingBall) {
                   b.rest_time - rest_time, b.path - path, b.height);
       EXPECT_NEAR(b.rest_time, rest_time, 10.0 * dt / (1.0 - e));
       EXPECT_NEAR(b.path, path, 5.0 * dt / (1.0 - e));
-      EXPECT_NEAR(b.height, 0.0, 2.001 * dt * dt);  // contact_slop of resting.hpp
+      EXPECT_NEAR(b.height, 0.0, 2.001 * dt * dt);  // far below contact_slop (resting.hpp)
       if (dt < 0.02) {
         EXPECT_LT(std::abs(b.rest_time - rest_time), std::abs(coarser.rest_time - rest_time) / 3.0);
         EXPECT_LT(std::abs(b.path - path), std::abs(coarser.path - path) / 3.0);
@@ -147,8 +151,8 @@ TEST_P(Golden, BouncingBall) {
   }
 }
 
-// Elastic motion is reversible: turned round at T, everything is back where it started, to the rounding that chaos
-// makes of 1e-16.
+// Elastic motion is reversible: with velocities reversed at T all disks return to where they started, up to the
+// rounding errors of 1e-16 amplified by chaos.
 TEST_P(Golden, Reversible) {
   test::Draws draws(11);
   const Scene s = scene(15.0, 0.002, 6.0);
@@ -167,8 +171,8 @@ TEST_P(Golden, Reversible) {
   }
 }
 
-// scenes/two_disks.toml: each collision of the run, from the paths before the step, the contact time and (23) of
-// docs/original.md written out with more digits than a double has.
+// scenes/two_disks.toml: each collision of the run is computed from the paths before the step, the contact time, and
+// (23) of docs/original.md, with more digits than a double has.
 TEST_P(Golden, TwoDisksSceneCollidesByRule23) {
   using test::wide;
   using test::Wide;
@@ -196,7 +200,7 @@ TEST_P(Golden, TwoDisksSceneCollidesByRule23) {
       const Wide n1 = vx1 * nx + vy1 * ny, n2 = vx2 * nx + vy2 * ny;
       const Wide w2 = (n1 * (1 + e) + n2 * (m2 / m1 - e)) / (1 + m2 / m1);
       const Wide w1 = n1 + m2 / m1 * (n2 - w2);
-      const Wide left = wide(after.time) - wide(before.time) - t;  // of the step, after the contact
+      const Wide left = wide(after.time) - wide(before.time) - t;  // the rest of the step, after the contact
       const auto narrow = [](Wide x) { return static_cast<double>(x); };
       EXPECT_NEAR(after.disks.vx[0], narrow(vx1 + (w1 - n1) * nx), 1e-12);
       EXPECT_NEAR(after.disks.vy[0], narrow(vy1 + (w1 - n1) * ny - g * left), 1e-12);

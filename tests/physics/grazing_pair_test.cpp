@@ -1,4 +1,5 @@
-// Disks that just touch and pass along each other: rounding may say that they miss, and no time comes of that.
+// Disks that just touch and pass along each other: by rounding no contact may be found, and then there is no time of
+// contact either.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,10 +38,10 @@ TEST(GrazingPair, IsResolvedWhereItIs) {
       EXPECT_GE(relative(d, 0, 1, scene.box).approach(), -1e-12);
     });
   }
-  EXPECT_GT(missed, 0) << "the case that this test is about";
+  EXPECT_GT(missed, 0) << "no pair was missed, so this tests nothing";
 }
 
-// Velocities are changed where both paths begin at the contact, by rounding, and nowhere else.
+// Velocities are corrected only if both paths begin at the contact, where rounding may make the disks approach.
 TEST(Parting, IsOfPathsThatBothBeginAtTheContact) {
   for (const auto& [p, q, both] : {std::tuple(1.0, 1.0, true), std::tuple(0.5, 1.0, false), std::tuple(1.0, 0.5, false),
                                    std::tuple(0.5, 0.5, false)}) {
@@ -48,8 +49,9 @@ TEST(Parting, IsOfPathsThatBothBeginAtTheContact) {
   }
 }
 
-// Across the top of a sheared box the second disk's image moves at the jump, -1: along x it approaches at 1/2 although
-// the velocities part at 1/2. It parts by the least that does it, shared by mass; no momentum comes of it.
+// Across the top of a sheared box the second disk's image moves with the jump, -1: along x it approaches at 1/2,
+// although the velocities alone would separate at 1/2. The disks are parted by the least change that is enough, divided
+// by mass, so momentum is conserved.
 TEST(Parting, CountsTheJumpOfAShear) {
   PathSegment p{0.0, 0.0, 0.0, 1.0, 0.0}, q{0.0, 1.0, 0.0, 1.5, 0.0};
   const Relative r{1.0, 0.0, -0.5, 0.0};
@@ -59,10 +61,10 @@ TEST(Parting, CountsTheJumpOfAShear) {
   EXPECT_EQ(3.0 * p.vx + q.vx, 4.5);
   const PathSegment before = p;
   part_disks(r, shares(3.0, 1.0), -1.0, p, q);
-  EXPECT_EQ(p.vx, before.vx) << "they do not approach any more";
+  EXPECT_EQ(p.vx, before.vx) << "they do not approach any more, so nothing may change";
 }
 
-// What parts two disks off the axes is along the line of centres, by mass: no momentum comes of it.
+// Off the axes, too, the change is along the line of centres, divided by mass, so momentum is conserved.
 TEST(Parting, IsAlongTheLineOfCentresByMass) {
   PathSegment p{0.0, 0.0, 0.0, 1.0, 2.0}, q{0.0, 0.6, 0.8, 0.5, 1.5};
   part_disks({0.6, 0.8, -0.5, -0.5}, shares(3.0, 1.0), 0.0, p, q);
@@ -73,7 +75,7 @@ TEST(Parting, IsAlongTheLineOfCentresByMass) {
   EXPECT_NEAR(0.8 * (q.vx - 0.5), 0.6 * (q.vy - 1.5), 1e-15);
 }
 
-// A wall that moves comes after a disk that moves away more slowly: they part in its frame.
+// A moving wall catches up with a disk that moves away more slowly: they are parted in the wall's frame.
 TEST(Parting, FromAWallIsInItsFrame) {
   const Vec2 line{0.6, 0.8}, wall{0.5, -0.25};
   for (const double approach : {0.125, -0.125}) {
@@ -88,7 +90,7 @@ TEST(Parting, FromAWallIsInItsFrame) {
   }
 }
 
-// A unit vector, and a velocity at a right angle to it, in any direction.
+// A unit vector n, and a velocity at right angles to it, in a random direction.
 struct Grazing {
   Vec2 n, along;
 };
@@ -98,8 +100,8 @@ Grazing graze(test::Draws& draws) {
   return {{std::cos(angle), std::sin(angle)}, {-slide * std::sin(angle), slide * std::cos(angle)}};
 }
 
-// Two disks that meet at the moment at which both began their paths, and approach by rounding alone, approach no more
-// afterwards; across the top of a sheared box too.
+// Two disks that meet at the moment at which both paths begin, and approach only by rounding, must not approach
+// afterwards; across the top of a sheared box, too.
 TEST(Parting, LeavesNoDisksThatApproachByRounding) {
   test::Draws draws(29);
   ExactRules rules;
@@ -113,7 +115,7 @@ TEST(Parting, LeavesNoDisksThatApproachByRounding) {
       a.path = {0.5, 10.0, sheared ? 19.9 : 10.0, 0.0, 0.0};
       b.path = {0.5, a.path.x + n.x, a.path.y + n.y, along.x, along.y};
       if (sheared) b.path = {0.5, b.path.x - 8.0, b.path.y - 20.0, along.x - 10.0, along.y};
-      if (sheared && n.y < 0.1) continue;  // not across the top
+      if (sheared && n.y < 0.1) continue;  // the pair is not across the top
       const auto now = [&] {
         return sheared ? relative_in_shear(a.path, b.path, rules.box) : relative(a.path, b.path, rules.box);
       };
@@ -123,11 +125,11 @@ TEST(Parting, LeavesNoDisksThatApproachByRounding) {
       collide_at(rules, 0.5, a, b);
       EXPECT_GE(met.dx * now().dvx + met.dy * now().dvy, 0.0) << k;
     }
-    EXPECT_GT(approached, 10) << "the case that this test is about";
+    EXPECT_GT(approached, 10) << "too few pairs approached, so this tests nothing";
   }
 }
 
-// Likewise a disk at the end of an inner wall, at rest or not.
+// The same for a disk at the end of an inner wall, at rest or moving.
 TEST(Parting, LeavesNoDiskThatApproachesAWallByRounding) {
   test::Draws draws(31);
   ExactRules rules;
@@ -142,7 +144,7 @@ TEST(Parting, LeavesNoDiskThatApproachesAWallByRounding) {
     int approached = 0;
     for (int k = 0; k < 2000; ++k) {
       const auto [n, along] = graze(draws);
-      if (n.x < 0.0) continue;  // not at the end of the wall
+      if (n.x < 0.0) continue;  // the disk is not at the end of the wall
       ExactDisk a;
       a.radius = 1.0;
       a.path = {0.5, end.x + n.x, end.y + n.y, along.x + wall_speed.x, along.y + wall_speed.y};
@@ -156,7 +158,7 @@ TEST(Parting, LeavesNoDiskThatApproachesAWallByRounding) {
       meet_obstacle_at(rules, 0.5, 0, a);
       EXPECT_GE(approach(), 0.0) << k;
     }
-    EXPECT_GT(approached, 10) << "the case that this test is about";
+    EXPECT_GT(approached, 10) << "too few disks approached, so this tests nothing";
   }
 }
 

@@ -1,4 +1,4 @@
-// What impacts amount to, tallied in parts.
+// Tallies of impacts, kept for parts of a step.
 #include "core/physics/impact_tally.hpp"
 
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 namespace carom {
 namespace {
 
-// Parts of a step that are tallied apart add up to the whole: collisions and crossings, what sides and inner walls
-// give, what the shear does and what sinks took.
+// The tallies of parts add up to that of the whole step: collisions and crossings, the impulse and energy from sides
+// and inner walls, the work of the shear, and what sinks took.
 TEST(Tally, OfPartsIsThatOfTheWhole) {
   const auto part = [](double x) {
     ImpactTally tally;

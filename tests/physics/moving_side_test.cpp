@@ -1,5 +1,5 @@
-// Sides that move: their pieces of parabolas, reflection in their frame, work, the weight they bear, sides that leave
-// no room.
+// Moving sides: their motion in pieces of parabolas, reflection in their frame, work, the weight that they bear, and
+// sides that leave no room.
 #include "core/physics/moving_side.hpp"
 
 #include <gmock/gmock.h>
@@ -32,7 +32,7 @@ double total_energy(const Scene& scene, const State& state) {
   return energy_of(state.disks, scene.physics.gravity).total();
 }
 
-// Nearly a sine: amplitude, period and phase; place and speed are continuous where pieces meet.
+// Vibration, nearly a sine: amplitude, period and phase; place and speed are continuous at the joints of pieces.
 TEST(SideMotion, VibratesInPiecesOfParabolas) {
   SideMotion m;
   m.kind = SideMotion::Kind::parabolas;
@@ -65,8 +65,8 @@ TEST(SideMotion, VibratesInPiecesOfParabolas) {
   }
 }
 
-// A time at which two pieces meet belongs to the later one, the number before it to the earlier one, however the
-// quotient by half a period is rounded: a window that ends with a piece has a length.
+// The time at which two pieces meet belongs to the later one, and the floating-point number before it to the earlier
+// one, however the quotient by half a period is rounded. So a window that ends with a piece has a length above 0.
 TEST(SideMotion, PiecesMeetAtWholeHalfPeriods) {
   test::Draws draws(11);
   SideMotion m;
@@ -82,7 +82,7 @@ TEST(SideMotion, PiecesMeetAtWholeHalfPeriods) {
   }
 }
 
-// Against the C library's, in long double, over many periods and scales.
+// Compared with the C library's sine in long double, over many periods and scales.
 TEST(SineInPeriod, IsRightToALastBitOrTwo) {
   constexpr auto pi = 3.141592653589793238462643383279502884L;
   double largest = 0.0;
@@ -101,7 +101,7 @@ TEST(SineInPeriod, IsRightToALastBitOrTwo) {
   for (const double period : {1.0, 0.3, 1e-80, 1e80}) {
     for (int quarter = 0; quarter < 5; ++quarter) {
       constexpr double sines[] = {0.0, 1.0, 0.0, -1.0};
-      if (quarter % 4 == 3) continue;  // three quarters of a period may be no double
+      if (quarter % 4 == 3) continue;  // three quarters of the period may not be a double
       const double t = 0.25 * quarter * period;
       EXPECT_EQ(sine_in_period(t, period).sine, sines[quarter % 4]) << period << ", " << quarter;
       EXPECT_EQ(sine_in_period(t, period).cosine, sines[(quarter + 1) % 4]) << period << ", " << quarter;
@@ -134,7 +134,7 @@ TEST(SideMotion, VibratesAsASine) {
   EXPECT_EQ(m.first_time_beyond(3.25, 0.9), HUGE_VAL);
 }
 
-// No gap that is below 0 before the contact, and none at it, for many paths, grazing ones among them.
+// For many paths, grazing ones among them: before the contact no gap is negative, and at the contact the gap is 0.
 TEST(SwingingSide, IsMetAtTheFirstContact) {
   SideMotion m;
   m.kind = SideMotion::Kind::sine;
@@ -160,13 +160,13 @@ TEST(SwingingSide, IsMetAtTheFirstContact) {
   EXPECT_GT(contacts, 2000);
 }
 
-// The disk meets a side that goes, comes, and accelerates: closed forms.
+// A disk meets a side that recedes, approaches, or accelerates: closed forms.
 TEST(MovingSide, TimeOfContact) {
   EXPECT_EQ(time_to_approach(2.0, 4.0, 0.0), 0.5);
   EXPECT_EQ(time_to_approach(2.0, -4.0, 0.0), HUGE_VAL);
   EXPECT_DOUBLE_EQ(time_to_approach(3.0, 2.0, 2.0), 1.0);    // 2 t + t^2 = 3
   EXPECT_DOUBLE_EQ(time_to_approach(3.0, -2.0, 2.0), 3.0);   // -2 t + t^2 = 3
-  EXPECT_DOUBLE_EQ(time_to_approach(0.75, 2.0, -2.0), 0.5);  // 2 t - t^2 = 3 / 4, the first of two
+  EXPECT_DOUBLE_EQ(time_to_approach(0.75, 2.0, -2.0), 0.5);  // 2 t - t^2 = 3 / 4, the earlier root
   EXPECT_EQ(time_to_approach(1.25, 2.0, -2.0), HUGE_VAL);
   EXPECT_DOUBLE_EQ(time_to_approach(-1e-17, -1.0, 4.0), 0.5);
   for (const double acceleration : {-1.0, 0.0, 1.0}) EXPECT_EQ(time_to_approach(-0.5, 4.0, acceleration), 0.0);
@@ -181,13 +181,13 @@ TEST(MovingSide, ReflectsInItsFrame) {
     const double approach = approach_speed(side, vx, vy, place);
     EXPECT_EQ(approach, 2.5);
     const double change = rebound(side, place, approach, 0.8 * approach, vx, vy);
-    EXPECT_EQ(outward_speed(side, vx, vy), -2.5);  // 0.8 * 2.5 away from a side that comes at 0.5
+    EXPECT_EQ(outward_speed(side, vx, vy), -2.5);  // (0.8 of 2.5) away from a side that comes in at 0.5
     EXPECT_EQ(change, 4.5);
     EXPECT_EQ(std::min(vx, vy) == 0.3 || std::max(vx, vy) == 0.3, true);
   }
 }
 
-// Elastic sides of all kinds of motion: the energy rises by their work alone, and no disk is beyond one.
+// With elastic sides that move in any way the energy changes by their work alone, and no disk is beyond a side.
 TEST(MovingSide, DoesTheWorkThatIsGained) {
   for (const std::string method : {"exact", "pairwise", "rollback"}) {
     for (const std::string physics : {"", "gravity = 0.4"}) {
@@ -213,7 +213,7 @@ TEST(MovingSide, DoesTheWorkThatIsGained) {
       const double before = total_energy(scene, start);
       const double after = total_energy(scene, end);
       EXPECT_GT(energy_from_sides(end), 0.05 * before);
-      const double allowed = exact || physics.empty() ? 1e-12 : 1e-2;  // stepping under gravity is of first order
+      const double allowed = exact || physics.empty() ? 1e-12 : 1e-2;  // stepping under gravity is only of first order
       EXPECT_NEAR(before + energy_from_sides(end), after, allowed * after);
       EXPECT_LE(deepest, exact ? 1e-12 : 0.1);
       EXPECT_GT(end.counters.wall_collisions, 200U);
@@ -221,7 +221,7 @@ TEST(MovingSide, DoesTheWorkThatIsGained) {
   }
 }
 
-// What the floor bears, averaged over whole periods, is the weight of the bed; the bed stays in motion.
+// Averaged over whole periods the floor bears the weight of the bed, which stays in motion.
 TEST(LongMovingSide, BearsTheWeightOfAShakenBed) {
   const Scene scene = load_scene(folder + "shaken_bed.toml");
   State middle;
@@ -238,7 +238,7 @@ TEST(LongMovingSide, BearsTheWeightOfAShakenBed) {
   EXPECT_GT(gained(&Counters::side_energy, 2), 10.0 * std::abs(total_energy(scene, end) - total_energy(scene, middle)));
 }
 
-// Disks are placed between the sides where they are at the start; so are those of a region, which must lie there.
+// Disks are placed between the sides as these are at the start; a region for disks must lie there, too.
 TEST(MovingSide, LetsDisksStartWhereThereIsRoom) {
   const auto scene_with = [](const std::string& positions, Count count = 30) {
     return parse_scene(
@@ -258,13 +258,13 @@ TEST(MovingSide, LetsDisksStartWhereThereIsRoom) {
   }
   try {
     initial_state(scene_with("\"random\"\nregion = [4.5, 1.0, 11.9, 9.5]"));
-    ADD_FAILURE() << "the region reaches beyond the left side";
+    ADD_FAILURE() << "no error, though the region reaches beyond the left side";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("region: reaches beyond a side that moves"));
   }
   try {
     initial_state(scene_with("[[5.3, 1.0], [8.0, 5.0]]", 2));
-    ADD_FAILURE() << "the first disk is in the left side";
+    ADD_FAILURE() << "no error, though the first disk is in the left side";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(),
                 HasSubstr("disk 0 of radius 0.5 at (5.3, 1) is not between the sides at time 0, which are "
@@ -272,7 +272,7 @@ TEST(MovingSide, LetsDisksStartWhereThereIsRoom) {
   }
 }
 
-// Two disks one above the other, and a ceiling that comes down to less than two diameters.
+// Two disks one above the other, and a ceiling that comes down to less than two diameters above the floor.
 TEST(LongMovingSide, StopsWhereItWouldCrushDisks) {
   for (const std::string method : {"exact", "pairwise", "rollback"}) {
     SCOPED_TRACE(method);
@@ -296,21 +296,22 @@ TEST(LongMovingSide, StopsWhereItWouldCrushDisks) {
     };
     const std::string error = error_of(*make_parallel_engine(scene, state, {2, 1}));
     EXPECT_THAT(error, AllOf(HasSubstr("t = "), HasSubstr("the top side is at y = "))) << error;
-    // Taken up where it was left, it does not go on as if nothing had been.
+    // A run resumed from where this one stopped must stop with the same error.
     const double left_at = state.time;
     EXPECT_THAT(error_of(*make_parallel_engine(scene, state, {1, 1})), HasSubstr("the top side is at y = "));
     EXPECT_EQ(state.time > left_at, exact);
   }
 }
 
-// A disk that rests on a side which presses it, at the same speed, touches now: else it would sink in.
+// A disk at the side, with the side's speed, that the side presses touches it now; otherwise it would sink in.
 TEST(SwingingSide, IsTouchedByADiskThatItPresses) {
   SwingSearch search{2.0};
   EXPECT_FALSE(search.go_on({0.0, 0.0, 1.0}, 1.0, 4.0));
   EXPECT_TRUE(search.go_on({0.0, 0.0, -1.0}, 1.0, 4.0));
 }
 
-// However long after the window's start, in periods, a search that waits for a disk that has just left goes on.
+// The search for the next contact of a disk that has just left makes progress even if the time since the window's
+// start, in periods, is so large that its rounding is coarse.
 TEST(SwingingSide, IsSearchedForThoughTimeIsCoarse) {
   for (const double t : {0.0, 1.0, 1e6, 1e12}) {
     SwingSearch search{1.0};

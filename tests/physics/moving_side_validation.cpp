@@ -1,4 +1,5 @@
-// Sides that move against theory: a gas compressed along its adiabat, a ball that bounces in step with its floor.
+// Moving sides compared with theory: a gas compressed along its adiabat, and a ball that bounces in step with its
+// floor.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +22,8 @@ double total_energy(const Scene& scene, const State& state) {
   return energy_of(state.disks, scene.physics.gravity).total();
 }
 
-// d ln T = -Z d ln V. Centres have the width of the box less a diameter; of packing, half of that counts.
+// d ln T = -Z d ln V. The centres of disks have the box's width less a diameter; for the packing fraction half of that
+// is taken off.
 TEST(MovingSide, CompressesAGasAlongItsAdiabat) {
   const Scene scene = load_scene(CAROM_SOURCE_DIR "/scenes/piston.toml",
                                  {{"box.right.motion.velocity", "[-0.1, 0]"}, {"run.t_end", "392.7"}});
@@ -44,8 +46,8 @@ TEST(MovingSide, CompressesAGasAlongItsAdiabat) {
   EXPECT_NEAR(before + end.counters.side_energy[1], after, 1e-12 * after);
 }
 
-// A ball with restitution e bounces once in a period T where the floor moves up at g T (1 - e) / (2 (1 + e)) when it
-// lands. That orbit is stable where the floor is slowed down by less than 2 g (1 + e^2) / (1 + e)^2.
+// A ball with restitution e bounces once in each period T if the floor moves up at g T (1 - e) / (2 (1 + e)) when it
+// lands. That orbit is stable if the floor's deceleration is below 2 g (1 + e^2) / (1 + e)^2.
 TEST(MovingSide, MakesABallBounceInStep) {
   for (const std::string method : {"exact", "pairwise"}) {
     SCOPED_TRACE(method);
@@ -64,16 +66,16 @@ TEST(MovingSide, MakesABallBounceInStep) {
       work = s.counters.side_energy[2];
     });
     EXPECT_NEAR(static_cast<double>(end.counters.wall_collisions - halfway), 200.0, 1.0);
-    // It lands at w = g T / (1 + e) in the floor's frame, and loses m w^2 (1 - e^2) / 2 a period... of the floor's
-    // work.
+    // It lands at w = g T / (1 + e) in the floor's frame and loses m w^2 (1 - e^2) / 2 in each period, which is the
+    // floor's work.
     const double u = 0.5 * 0.2 / 1.8;
-    const double impulse = 2.0 * 1.0;  // m g T, to come up again
+    const double impulse = 2.0 * 1.0;  // m g T in each period, to come up again
     EXPECT_NEAR((end.counters.side_energy[2] - work) / (200.0 * impulse * u), 1.0, 0.01);
   }
 }
 
-// Two disks one above the other, and a ceiling that comes down to less than two diameters: collisions that the TC model
-// makes elastic become as frequent as those of elastic disks, and time comes to a stop.
+// Two disks one above the other, and a ceiling that comes down to less than two diameters above the floor: collisions
+// that the TC model makes elastic become as frequent as those of elastic disks, and time stops advancing.
 TEST(MovingSide, StopsWhereItWouldCrushDisksThatStayInContact) {
   const Scene scene = parse_scene(
       "[box]\nwidth = 2.1\nheight = 6.0\ntop = { motion = { velocity = [0, -0.5] } }\n[physics]\nrestitution = 0.5\n"
@@ -83,7 +85,7 @@ TEST(MovingSide, StopsWhereItWouldCrushDisksThatStayInContact) {
       "jam", "");
   try {
     run_by_engine(scene, initial_state(scene));
-    ADD_FAILURE() << "there is no room for both";
+    ADD_FAILURE() << "no error, though there is no room for both disks";
   } catch (const PhysicsError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("the top side is at y = "));
   }

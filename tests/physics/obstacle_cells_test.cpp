@@ -1,4 +1,4 @@
-// The cells of obstacles: a disk finds every obstacle that it touches, wherever it is and however large.
+// The cells of obstacles: each disk finds every obstacle that it touches, wherever it is and whatever its size.
 #include "core/disks/obstacle_cells.hpp"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ std::vector<Obstacle> random_obstacles(test::Draws& draws, std::size_t n, const 
   return all;
 }
 
-// The shortest distance by trying all images within a period.
+// The shortest distance, found by trying all images within a period.
 bool touches(const Obstacle& o, double x, double y, double r, const Domain& box) {
   bool any = false;
   const int periods_x = box.periodic_x() ? 1 : 0;
@@ -49,7 +49,8 @@ bool touches(const Obstacle& o, double x, double y, double r, const Domain& box)
   return any;
 }
 
-// Few obstacles, which most disks are far from, and many; disks much smaller than a cell and larger than several.
+// Few obstacles, far from most disks, and many obstacles; disks much smaller than a cell, and disks larger than several
+// cells.
 TEST(ObstacleCells, FindAllThatADiskTouches) {
   for (const bool periodic : {false, true}) {
     for (const std::size_t n : {1U, 2U, 7U, 300U}) {
@@ -78,13 +79,13 @@ TEST(ObstacleCells, FindAllThatADiskTouches) {
       }
       EXPECT_GT(found, 10U * n);
       if (n <= 7) {
-        EXPECT_GT(clear, 50U) << "far from few obstacles";
+        EXPECT_GT(clear, 50U) << "too few disks are clear of the few obstacles";
       }
     }
   }
 }
 
-// A wall that is under way along x, once round in a unit of time.
+// A wall that moves along x, once around the period in a unit of time.
 struct WindingWall {
   Domain box;
   std::unique_ptr<ObstacleCells> cells;
@@ -107,7 +108,7 @@ struct WindingWall {
   bool touches_at(double x) const { return touches_obstacle(box, x, 3.0, 0.25); }
 };
 
-// More often than a number of 32 bits counts.
+// The number of rounds may exceed 32 bits.
 TEST(ObstacleCells, FindAWallThatHasGoneRoundVeryOften) {
   for (const double rounds : {1.0, 0x1p31, 0x1p31 + 5.0, 0x1p32, 0x1p33 + 1.0, 0x1p40}) {
     WindingWall wall;
@@ -118,7 +119,7 @@ TEST(ObstacleCells, FindAWallThatHasGoneRoundVeryOften) {
   }
 }
 
-// A step without disks may be as long as it likes: its cells are no more for that.
+// A step without disks may have any length: the number of cells does not grow with it.
 TEST(ObstacleCells, FindAWallThatGoesRoundVeryOftenInAStep) {
   WindingWall wall;
   step_walls(wall.box, wall.cells.get(), 0.0, 1e12);

@@ -1,5 +1,5 @@
-// How far places are from the obstacles of a run, at rest and moving: never more than they are at any time of the step
-// or window, and not much less.
+// The clearance of places among the obstacles of a run, at rest and moving: at most the distance at any time of the
+// step or window, and not much smaller.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ WallMotion vibrating(SideMotion::Kind kind, Vec2 amplitude, double period) {
   return motion;
 }
 
-// Two fixed disks, and a wall with each of the motions.
+// Two fixed disks, and one wall for each of the motions.
 std::vector<Obstacle> obstacles_of(std::size_t motions) {
   std::vector<Obstacle> all(2 + motions);
   all[0].x = 3.0, all[0].y = 4.0, all[0].radius = 0.5;
@@ -53,7 +53,7 @@ std::vector<Obstacle> obstacles_of(std::size_t motions) {
   return all;
 }
 
-// Of a point from an obstacle that stands where it is at time t, and its images within two periods of that; length.
+// The distance from an obstacle as it stands at time t, or from its images within two periods; length.
 double distance_at(const ObstacleCells& cells, const std::vector<WallMotion>& motions, const Domain& box, Vec2 place,
                    double t) {
   const int periods = box.periodic_x() ? 2 : 0;
@@ -76,8 +76,8 @@ struct Case {
   const char* name;
   bool periodic;
   std::vector<WallMotion> motions;
-  double from, to;   // time
-  double shortfall;  // of what is said, at most; length
+  double from, to;   // the step or window; time
+  double shortfall;  // the most by which the clearance may fall short of the distance; length
 };
 
 class ObstacleClearance : public testing::TestWithParam<Case> {};
@@ -86,7 +86,7 @@ TEST_P(ObstacleClearance, IsNoMoreThanTheDistanceAtAnyTime) {
   const Case& c = GetParam();
   const Domain box = box_of(c.periodic);
   ObstacleCells cells(obstacles_of(c.motions.size()), c.motions, box);
-  cells.follow(1.0, 2.0);  // what is known of another time is forgotten
+  cells.follow(1.0, 2.0);  // clearances of another time must be forgotten
   cells.follow(c.from, c.to);
   test::Draws draws(3);
   for (int k = 0; k < 2000; ++k) {
@@ -100,12 +100,13 @@ TEST_P(ObstacleClearance, IsNoMoreThanTheDistanceAtAnyTime) {
     ASSERT_GE(known, std::min(nearest, 8.0) - c.shortfall) << place.x << ' ' << place.y;
     ASSERT_EQ(cells.is_clear(place, place), known >= 0.0);
   }
-  EXPECT_LT(cells.clearance({-0.1, 3.0}), 0.0) << "not known";
-  EXPECT_LT(cells.clearance({3.0, box.height}), 0.0) << "not known";
+  EXPECT_LT(cells.clearance({-0.1, 3.0}), 0.0) << "places out of the box have no clearance";
+  EXPECT_LT(cells.clearance({3.0, box.height}), 0.0) << "places out of the box have no clearance";
 }
 
-// 64 by 64 cells at least, so that each is 0.8 long or less; a place is somewhere in its cell, and further on cells are
-// counted along either side alone. Where walls move in more than four ways what they sweep over is a rectangle.
+// There are at least 64 by 64 cells, each at most 0.8 long. A place may be anywhere in its cell, and distances beyond
+// are counted in cells along one axis only. With more than four different motions the swept area of walls is a
+// rectangle.
 const std::vector<WallMotion> five_ways{steady({0.1, 0.0}), steady({0.2, 0.0}), steady({0.3, 0.0}), steady({0.4, 0.0}),
                                         steady({0.5, 0.0})};
 INSTANTIATE_TEST_SUITE_P(

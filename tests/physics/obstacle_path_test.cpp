@@ -1,5 +1,5 @@
-// A disk and one obstacle: when a falling disk touches something round, a plane or a sink, and what it touches where
-// walls join, where centres coincide and where images of one obstacle are close.
+// A disk and one obstacle: when a falling disk touches a round obstacle, a flat one or a sink, and what it touches
+// where walls join, where centres coincide, and where images of one obstacle are close.
 #include "core/physics/obstacle_path.hpp"
 
 #include <gtest/gtest.h>
@@ -17,13 +17,13 @@
 namespace carom {
 namespace {
 
-// A disk that lies on something round and slides so slowly that gravity holds it there, v^2 < g_n r, would follow the
-// circle; on its parabola it overlaps at once. So it touches again at once: the way that rounding leaves is what it may
-// go.
+// A disk that lies on a round obstacle and slides so slowly that gravity keeps it there, v^2 < g_n r, would have to
+// follow the circle; on its parabola it would overlap at once. So its next contact is at once: it may move only as far
+// as rounding allows.
 TEST(FallPast, TouchesAtOnceWhereGravityPressesItOnSomethingRound) {
   const Gravity g(0.06);
   for (int k = 0; k < 2000; ++k) {
-    const double angle = 0.3 + 0.0012 * k;  // from the horizontal
+    const double angle = 0.3 + 0.0012 * k;  // angle from the horizontal
     const double contact = 0.2794163464055573 * (1.0 + 1e-3 * k);
     const double along = (k % 2 == 0 ? 0.9 : -0.5) * std::sqrt(0.06 * std::sin(angle) * contact);
     const FallPast fall{contact * std::cos(angle),
@@ -39,8 +39,9 @@ TEST(FallPast, TouchesAtOnceWhereGravityPressesItOnSomethingRound) {
   }
 }
 
-// Closed forms, from outside: 2 t + t^2 = 3 and the like, the earlier root. None where it turns back before, nor where
-// it is beyond; one that touches and moves away touches again when it has come back, after 2 v / a.
+// Closed forms from outside, such as 2 t + t^2 = 3, with the earlier root. There is no contact if the disk turns back
+// before, or is beyond the plane. A disk that touches and moves away touches again when it has come back, after 2 v /
+// a.
 TEST(TimeToPlane, IsTheFirstRoot) {
   EXPECT_DOUBLE_EQ(time_to_plane(3.0, 2.0, 2.0, false), 1.0);
   EXPECT_DOUBLE_EQ(time_to_plane(3.0, -2.0, 2.0, false), 3.0);
@@ -56,7 +57,7 @@ TEST(TimeToPlane, IsTheFirstRoot) {
 
 const Obstacle floor_piece{2.0, 5.0, 6.0, 0.0, 0.0, 1.0, 0, ObstacleKind::wall};
 
-// A disk whose centre lies on a wall has to be put back to one side of it: the left of the way along it.
+// A disk whose centre lies on a wall has to be put to one side of it: to the left of the wall's direction.
 TEST(ObstacleGap, OfACentreOnTheObstacleHasADirection) {
   const Domain box = test::box_of(20.0, 10.0);
   const ObstacleGap on_wall = gap_to(floor_piece, 5.0, 5.0, 1.0, box);
@@ -70,7 +71,8 @@ TEST(ObstacleGap, OfACentreOnTheObstacleHasADirection) {
   EXPECT_EQ(on_peg.beyond, 3.0);
 }
 
-// Half-way between a fixed disk and its image, and large enough to touch both: one contact, with the nearest.
+// A disk half-way between a fixed disk and its image, and large enough to touch both, has one contact, with the
+// nearest.
 TEST(ObstacleGap, OfTwoImagesTheNearestIsTouched) {
   Domain box = test::box_of(4.0, 10.0, test::Periodic::x);
   const ObstacleCells cells({{0.5, 5.0, 0.0, 0.0, 1.0}}, {}, box);
@@ -84,7 +86,7 @@ TEST(ObstacleGap, OfTwoImagesTheNearestIsTouched) {
   }
 }
 
-// A sink takes what touches it, at once, though the disk moves away; a wall there is not met.
+// A sink takes a disk that touches it at once, even if the disk moves away; a wall in the same place is not met.
 TEST(TimeToObstacle, IsNoneWhereADiskTouchesASink) {
   Obstacle sink = floor_piece;
   sink.kind = ObstacleKind::sink;
@@ -94,7 +96,7 @@ TEST(TimeToObstacle, IsNoneWhereADiskTouchesASink) {
     EXPECT_EQ(time_to_obstacle(sink, apart, leaving, 1.0, g, 1.0), 0.0);
     EXPECT_GT(time_to_obstacle(floor_piece, apart, leaving, 1.0, g, 1.0), 1.0);
   }
-  // One that vibrates by 0.25 and is at its middle now.
+  // A wall that vibrates with amplitude 0.25 and is at its middle now.
   WallMotion motion;
   motion.pace = {SideMotion::Kind::sine, 0.0, 0.0, 1.0, 40.0};
   motion.along = {0.0, -0.25};
@@ -102,8 +104,8 @@ TEST(TimeToObstacle, IsNoneWhereADiskTouchesASink) {
   EXPECT_GT(time_to_swinging_wall({floor_piece, motion, motion.pace.at(0.0)}, apart, leaving, 1.0, 0.0, 1.0), 1.0);
 }
 
-// A wall that vibrates faster or slower than gravity bends a path: nothing overlaps it before the contact, which is
-// where the gap is 0.
+// A wall whose vibration accelerates it more, or less, than gravity accelerates a disk: there is no overlap before the
+// contact, at which the gap is 0.
 TEST(TimeToSwingingWall, IsThatOfTheFirstContact) {
   constexpr double r = 0.5, span = 5.0;
   test::Draws draws(5);
@@ -132,7 +134,7 @@ TEST(TimeToSwingingWall, IsThatOfTheFirstContact) {
   EXPECT_GT(contacts, 300);
 }
 
-// Past the ends of a wall, too, where a disk may rise beside it and fall back on it.
+// This holds beyond the ends of a wall, too, where a disk may rise beside it and fall back on it.
 TEST(TimeToObstacle, IsThatOfTheFirstContact) {
   constexpr double r = 0.5, span = 5.0;
   test::Draws draws(6);
@@ -156,7 +158,7 @@ TEST(TimeToObstacle, IsThatOfTheFirstContact) {
   EXPECT_GT(contacts, 800);
 }
 
-// In any direction of gravity: between the turns, where its slope is 0, the approach to something round is monotone.
+// For any direction of gravity the approach to a round obstacle is monotone between its turns, where its slope is 0.
 TEST(FallPast, TurnsWhereTheApproachHasNoSlope) {
   test::Draws draws(8);
   int turns = 0;
@@ -178,11 +180,11 @@ TEST(FallPast, TurnsWhereTheApproachHasNoSlope) {
   EXPECT_GT(turns, 300);
 }
 
-// A disk that touches what stands in a periodic box, or a wall that has gone round it many times, touches it once,
-// wherever its image lies, as it touches what was put there.
+// In a periodic box a disk touches an obstacle only once, whichever image of it is touched; so it is for a wall that
+// has gone around many times. The contact is as with an obstacle placed there.
 TEST(ObstacleGap, OfImagesAndOfWallsThatWentRoundIsSeenOnce) {
   test::Draws draws(9);
-  for (const int kind : {0, 1, 2}) {  // a fixed disk, an inner wall, one that moves
+  for (const int kind : {0, 1, 2}) {  // a fixed disk, an inner wall, a moving inner wall
     Domain box = test::box_of(10.0, 12.0, test::Periodic::both);
     Obstacle o{9.0, 11.0, 0.0, 0.0, 1.5, 1.0, 0, ObstacleKind::disk};
     if (kind > 0) o = {7.0, 11.5, 3.0, -1.0, 0.0, 1.0, 0, ObstacleKind::wall};
@@ -194,7 +196,7 @@ TEST(ObstacleGap, OfImagesAndOfWallsThatWentRoundIsSeenOnce) {
       cells.follow(37.0, 37.0);
       box.inner_walls_move = true;
       box.move_walls(37.0);
-      there = {4.0, 10.5, 3.0, -1.0, 0.0, 1.0, 0, ObstacleKind::wall};  // 37 on: 40 less 3, 36 and 1
+      there = {4.0, 10.5, 3.0, -1.0, 0.0, 1.0, 0, ObstacleKind::wall};  // 37 on: 40 (5 rounds) minus 3; and 36 and 1
     }
     int touched = 0;
     for (int k = 0; k < 2000; ++k) {
@@ -215,8 +217,8 @@ TEST(ObstacleGap, OfImagesAndOfWallsThatWentRoundIsSeenOnce) {
   }
 }
 
-// A wall that moves steadily, along a parabola or as a sine is met first where its gap is 0, though it comes to a disk
-// that hardly moves; also within a time that is hardly longer.
+// A wall that moves steadily, along a parabola or as a sine is first met when its gap is 0, even if the disk hardly
+// moves, and even if the time searched is hardly longer.
 TEST(TimeToMovingWall, IsThatOfTheFirstContact) {
   constexpr double r = 0.5, span = 2.5;
   test::Draws draws(7);
@@ -259,8 +261,8 @@ TEST(TimeToMovingWall, IsThatOfTheFirstContact) {
   }
 }
 
-// Where the end of one wall lies on the side of another, a disk there touches one of them: the side. Were each hidden
-// by the other, it would fall through.
+// Where the end of one wall lies on the side of another, a disk there touches only the side. If each contact hid the
+// other, the disk would fall through.
 TEST(Joint, TheSideIsTouchedAndTheEndIsHidden) {
   const Domain box = test::box_of(20.0, 10.0);
   const Obstacle post{5.0, 2.0, 0.0, 3.0, 0.0, 1.0, 1, ObstacleKind::wall};  // up to the middle of floor_piece
@@ -273,7 +275,7 @@ TEST(Joint, TheSideIsTouchedAndTheEndIsHidden) {
     EXPECT_TRUE(hides(side, is_later, end, r, box));
     EXPECT_FALSE(hides(end, is_later, side, r, box));
   }
-  // Of two ends in one point, or of one wall twice, the later one is hidden.
+  // If two ends coincide, or one wall is given twice, the later one is hidden.
   const Obstacle on_the_way{8.0, 5.0, 4.0, 0.0, 0.0, 1.0, 2, ObstacleKind::wall};
   const ObstacleGap first_end = gap_to(floor_piece, 8.0, 5.9, r, box);
   const ObstacleGap second_end = gap_to(on_the_way, 8.0, 5.9, r, box);
@@ -281,8 +283,8 @@ TEST(Joint, TheSideIsTouchedAndTheEndIsHidden) {
   EXPECT_FALSE(hides(second_end, false, first_end, r, box));
 }
 
-// Ends and sides that a disk touches in other points are contacts of their own: beside it and below it, or two ends one
-// above the other.
+// Ends and sides that a disk touches in different points are separate contacts: one beside it and one below it, or two
+// ends one above the other.
 TEST(Joint, OtherPointsAreOtherContacts) {
   const auto wall = [](double x, double y, double dx, double dy) {
     return Obstacle{x, y, dx, dy, 0.0, 1.0, 0, ObstacleKind::wall};
@@ -301,7 +303,7 @@ TEST(Joint, OtherPointsAreOtherContacts) {
   }
 }
 
-// Walls that move apart from each other are two contacts in one place: each gives a disk its own velocity.
+// Walls that move differently make two contacts in one place: each gives the disk its own velocity.
 TEST(Joint, WallsOfOtherVelocitiesHideNothing) {
   const Domain box = test::box_of(20.0, 10.0);
   const Obstacle post{5.0, 2.0, 0.0, 3.0, 0.0, 1.0, 1, ObstacleKind::wall};
@@ -313,8 +315,8 @@ TEST(Joint, WallsOfOtherVelocitiesHideNothing) {
   }
 }
 
-// What reaches into a fixed disk is as deep as the gap says, over the radius; and what lies in a wall where a sink is
-// an opening in it is about to be taken, and lies in nothing.
+// The overlap with a fixed disk is the depth of the gap over the radius. A disk that lies in a wall where a sink is an
+// opening is about to be taken, and overlaps nothing.
 TEST(WallOverlap, IsOfWallsAndObstaclesButNotInAnOpening) {
   Domain box = test::box_of(20.0, 10.0);
   Obstacle sink{2.0, 0.0, 6.0, 0.0, 0.0, 1.0, 1, ObstacleKind::sink};
@@ -334,8 +336,9 @@ TEST(WallOverlap, IsOfWallsAndObstaclesButNotInAnOpening) {
   }
 }
 
-// From its contact on, a disk falls for a time t: that is found again. At a slope to rounding; at something round by
-// two steps of Newton's from the straight path, which is a tenth off here, and after one step a thousandth.
+// A disk falls for a time t from its contact, and that time must be found again: at a slope to rounding; at a round
+// obstacle by two of Newton's steps from the straight path, which is wrong by a tenth here, and after one step by a
+// thousandth.
 TEST(TimeSinceObstacle, UndoesTheFall) {
   const Gravity g(0.5, 2.0);
   const double t = 0.1;
@@ -359,7 +362,7 @@ TEST(TimeSinceObstacle, UndoesTheFall) {
   const ObstacleGap gap = gap_to(slope, x, y, 1.0, box);
   ASSERT_TRUE(gap.flat);
   EXPECT_NEAR(time_since_obstacle(slope, gap, 1.0, vx, vy, g) / t, 1.0, 1e-13);
-  // One that was never outside: it lies deeper than its speed brings it.
+  // A disk that was never outside: it lies deeper than its speed can have carried it.
   EXPECT_EQ(time_since_flat({0.0, 1.0, 1.0, true}, 1.0, Gravity(0.75)), HUGE_VAL);
 }
 

@@ -1,5 +1,5 @@
-// What a step does with one contact, by hand: one that began within the step, one that is older, and one whose disk
-// gravity holds back.
+// The handling of one contact in a step: a contact that began within the step, an older one, and one to which gravity
+// holds the disk.
 #include "core/physics/resolve.hpp"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,8 @@ WallImpact resolve_disk_at(Disks& disks, const StepRules& rules, DiskId wall) {
   return resolve<WallImpact>(disks, rules, {0.0, 0, wall, 0, 0});
 }
 
-// A contact that began with the step, but for a millionth of it, began within it, and is ordered as if with it.
+// A contact that began at the start of the step, within a millionth of the step, counts as begun within the step, and
+// is ordered as if it began exactly then.
 TEST(ContactTime, IsOfTheStepButForAMillionth) {
   EXPECT_TRUE(began_within(dt * (1.0 + 0.9e-6), dt));
   EXPECT_FALSE(began_within(dt * (1.0 + 1.1e-6), dt));
@@ -44,8 +45,8 @@ TEST(ContactTime, IsOfTheStepButForAMillionth) {
   EXPECT_EQ(time_within(2.0 * dt, dt), dt);
 }
 
-// Late is what lay beyond a wall when the step began, by more than a hundredth of its way in the step; not what gravity
-// holds there.
+// A contact is late if the disk was beyond the wall when the step began, by more than a hundredth of its way in the
+// step; not if gravity holds the disk there.
 TEST(ContactTime, IsLateWhereADiskWasBeyondBefore) {
   const double way = 2.0 * dt;
   EXPECT_TRUE(is_met_late(1.02 * dt, 1.02 * way, 2.0, dt));
@@ -54,7 +55,8 @@ TEST(ContactTime, IsLateWhereADiskWasBeyondBefore) {
   EXPECT_FALSE(is_met_late(HUGE_VAL, 0.9 * way, 2.0, dt));
 }
 
-// Contacts are taken in the order in which they began: of the path of now, in the frame of what moves.
+// Contacts are handled in the order in which they began, computed from the present path in the frame of a moving
+// obstacle.
 TEST(ContactTime, IsInTheFrameOfWhatMoves) {
   StepRules rules = rules_of(2.0, 0.5);
   rules.box.places[0] = {1.0, 0.5, 0.0};
@@ -71,9 +73,9 @@ TEST(ContactTime, IsInTheFrameOfWhatMoves) {
   });
 }
 
-// A pair whose contact is older than the step collides where it is, and late.
+// A pair whose contact is older than the step collides where it is, and counts as late.
 TEST(ResolvePair, ThatIsOlderThanTheStepCollidesWhereItIs) {
-  for (const double overlap : {0.2, 0.3}) {  // at relative speed 2: 0.1 and 0.15 ago
+  for (const double overlap : {0.2, 0.3}) {  // at relative speed 2: contacts 0.1 and 0.15 ago
     Disks disks = test::disks_of({{5.0, 5.0, 1.0, 0.0, 1.0, 1.0}, {7.0 - overlap, 5.0, -1.0, 0.0, 1.0, 3.0}});
     const PairImpact impact = resolve_disks(disks, rules_of(0.0, 1.0));
     const bool late = overlap > 0.25;
@@ -85,7 +87,7 @@ TEST(ResolvePair, ThatIsOlderThanTheStepCollidesWhereItIs) {
   }
 }
 
-// Only what touches and approaches collides.
+// Only pairs that touch and approach collide.
 TEST(ResolvePair, LeavesOthersAlone) {
   for (const auto& [apart, speed] : {std::pair{2.1, -1.0}, std::pair{1.9, 1.0}}) {
     Disks disks = test::disks_of({{5.0, 5.0, 0.0, 0.0, 1.0, 1.0}, {5.0 + apart, 5.0, speed, 0.0, 1.0, 3.0}});
@@ -95,8 +97,8 @@ TEST(ResolvePair, LeavesOthersAlone) {
   }
 }
 
-// Across the top of a sheared box the first disk collides with the second one's image, which moves on by the jump while
-// both go back to their contact and forth.
+// Across the top of a sheared box the first disk collides with the second one's image, which moves with the jump while
+// both go back to their contact and forward again.
 TEST(ResolvePair, AcrossTheTopIsOfTheImageThatMoves) {
   StepRules sheared = rules_of(0.0, 0.5);
   test::set_sides(sheared.box, SideKind::periodic, SideKind::periodic);
@@ -118,10 +120,10 @@ TEST(ResolvePair, AcrossTheTopIsOfTheImageThatMoves) {
   }
 }
 
-// Off a side that comes in at 0.5 a disk bounces in the side's frame, where the side was then; if that was before the
-// step, where it is now. What it gains is the side's work.
+// At a side that comes in at 0.5 a disk bounces in the side's frame, at the place where the side was at the contact; if
+// the contact was before the step, at the side's present place. The energy gained is the side's work.
 TEST(ResolveWall, OfASideThatMovesIsInItsFrame) {
-  for (const double beyond : {0.1, 0.5}) {  // at 2.5 in that frame: 0.04 and 0.2 ago
+  for (const double beyond : {0.1, 0.5}) {  // at 2.5 in the side's frame: contacts 0.04 and 0.2 ago
     StepRules rules = rules_of(0.0, 0.5);
     rules.box.motions[0].kind = SideMotion::Kind::steady;
     rules.box.places[0] = {1.0, 0.5, 0.0};
@@ -137,7 +139,7 @@ TEST(ResolveWall, OfASideThatMovesIsInItsFrame) {
   }
 }
 
-// A floor that comes up lifts a disk to itself at the cost of its motion, too.
+// A rising floor, too, lifts a disk up to itself, and the energy for that is taken from the disk's motion.
 TEST(ResolveWall, LiftsADiskToAFloorThatMoves) {
   StepRules rules = rules_of(2.0, 0.5);
   rules.box.motions[2].kind = SideMotion::Kind::steady;
@@ -151,10 +153,10 @@ TEST(ResolveWall, LiftsADiskToAFloorThatMoves) {
   EXPECT_DOUBLE_EQ(impact.impulse, 3.0 * (0.7 + away));
 }
 
-// At a thermal side a velocity is drawn once, where the disk touched it, and the disk goes on with that for the rest of
-// the step; it stays at the side where its contact is older, or gravity brings it back.
+// At a thermal side a velocity is drawn once, at the point of contact, and the disk moves on with it for the rest of
+// the step. It stays at the side if its contact is older, or if gravity brings it back.
 TEST(ResolveWall, OfAThermalSideIsDrawnWhereItIsTouched) {
-  for (const double beyond : {0.1, 0.3}) {  // at speed 2: 0.05 and 0.15 ago
+  for (const double beyond : {0.1, 0.3}) {  // at speed 2: contacts 0.05 and 0.15 ago
     StepRules rules = rules_of(0.0, 1.0);
     rules.box.temperatures[1] = 2.0;
     std::uint32_t hits = 4;
@@ -181,10 +183,10 @@ TEST(ResolveWall, OfAThermalSideIsDrawnWhereItIsTouched) {
   Disks disks = test::disks_of({{5.0, 0.9, 0.0, -4.0, 1.0, 3.0}});
   EXPECT_FALSE(resolve_disk_at(disks, rules, wall_partner(Side::bottom)).inaccurate);
   EXPECT_EQ(disks.y[0], 1.0);
-  EXPECT_LT(disks.vy[0], -1.0) << "it has fallen since";
+  EXPECT_LT(disks.vy[0], -1.0) << "it must have fallen since the contact";
 }
 
-// Beside smooth walls, a thermal one too, a rough disk keeps its spin.
+// Beside smooth walls, thermal ones too, a rough disk keeps its spin.
 TEST(ResolveWall, OfASmoothThermalSideLeavesTheSpin) {
   for (const bool rough : {false, true}) {
     Surfaces surfaces;
@@ -206,13 +208,13 @@ TEST(ResolveWall, OfASmoothThermalSideLeavesTheSpin) {
   }
 }
 
-// A disk that slides along a wall is pressed by all that its speed across changes, in the frame of the wall: it loses a
-// tenth of that along it, whether it bounces within the step or where it is.
+// For a disk that slides along a wall, friction acts by the whole change of the normal velocity, in the wall's frame:
+// the disk loses a tenth of that change along the wall, whether it bounces within the step or where it is.
 TEST(ResolveWall, RubsByAllThatPressesIt) {
   Surfaces surfaces;
   surfaces.inertia = 0.5;
   surfaces.walls = {0.5, 0.1};
-  for (const int kind : {0, 1, 2}) {  // a side, one that moves, an inner wall
+  for (const int kind : {0, 1, 2}) {  // a side, a moving side, an inner wall
     for (const double beyond : {0.1, 0.5}) {
       StepRules rules = rules_of(0.0, 0.5);
       rules.surfaces = &surfaces;
@@ -234,9 +236,9 @@ TEST(ResolveWall, RubsByAllThatPressesIt) {
   }
 }
 
-// A disk that has been pressed 0.1 into the floor, a fixed disk or a slope, and so long ago, comes back to it with what
-// lifting it costs taken from its motion: v'^2 = v^2 - 2 g_n 0.1. Where that is more than there is, it rests. Likewise
-// where gravity pulls to the left.
+// A disk was pressed 0.1 deep into the floor, a fixed disk or a slope before the step. It is put back, and the energy
+// for lifting it is taken from its motion: v'^2 = v^2 - 2 g_n 0.1. If that is more than there is, it rests. The same
+// holds if gravity pulls to the left.
 TEST(ResolveWall, LiftsADiskAtTheCostOfItsMotion) {
   for (const int kind : {0, 1, 2, 3}) {
     for (const double speed : {0.7, 0.3}) {
@@ -265,7 +267,7 @@ TEST(ResolveWall, LiftsADiskAtTheCostOfItsMotion) {
   }
 }
 
-// What sticks to a fixed disk within the step and falls on has come back to it at the step's end.
+// A disk that sticks to a fixed disk within the step, and would fall on, is back at it at the step's end.
 TEST(ResolveWall, HoldsADiskThatGravityBringsBack) {
   StepRules rules = rules_of(50.0, 0.5);
   const ObstacleCells cells({{10.0, 5.0, 0.0, 0.0, 2.0, 0.0, 0, ObstacleKind::disk}}, {}, rules.box);
@@ -276,11 +278,12 @@ TEST(ResolveWall, HoldsADiskThatGravityBringsBack) {
   EXPECT_NEAR(disks.vy[0], 0.0, 1e-6);
 }
 
-// A restitution that depends on speed is that of the speed with which it gets there: e = 1 - 0.5 v^(1/5).
+// A restitution that depends on speed is taken at the speed with which the disk reaches the obstacle: e = 1 - 0.5
+// v^(1/5).
 TEST(ResolveWall, AsksForTheRestitutionOfTheSpeedAtTheObstacle) {
   RestitutionLaw law;
   law.viscosity = 0.5;
-  for (const double speed : {0.7, 2.0}) {  // lifted up to it, or met within the step
+  for (const double speed : {0.7, 2.0}) {  // lifted up to the obstacle, or met within the step
     StepRules rules = rules_of(speed < 1.0 ? 2.0 : 0.0, 0.0);
     rules.law = &law;
     const ObstacleCells cells({{10.0, 5.0, 0.0, 0.0, 2.0, 0.0, 7, ObstacleKind::disk}}, {}, rules.box);
@@ -292,13 +295,14 @@ TEST(ResolveWall, AsksForTheRestitutionOfTheSpeedAtTheObstacle) {
   }
 }
 
-// e = 1 - a v^(1/5) falls to its least and no further; an inner wall, which is of no law, keeps its own.
+// e = 1 - a v^(1/5) falls to its least value and no further; an inner wall, to which no law applies, has its own
+// restitution.
 TEST(RestitutionOfAContact, FallsToItsLeast) {
   EXPECT_DOUBLE_EQ(restitution_at({0.5, 0.25}, 1.0), 0.75);
   EXPECT_EQ(restitution_at({0.5, 0.25}, 1e6), 0.5);
   EXPECT_EQ(restitution_at({0.5, 0.0}, 1e6), 0.5);
   StepRules rules = rules_of(0.0, 0.0);
-  const RestitutionLaw law{0.0, {1, 2}, {{0, 1, {0.75, 0.0}}}};  // of disk 0 with disk 1
+  const RestitutionLaw law{0.0, {1, 2}, {{0, 1, {0.75, 0.0}}}};  // for disk 0 with disk 1
   rules.law = &law;
   const Obstacle peg{5.0, 5.0, 0.0, 0.0, 1.0, 1.0, 1, ObstacleKind::disk};
   const Obstacle wall{5.0, 5.0, 2.0, 0.0, 0.0, 0.25, 1, ObstacleKind::wall};
@@ -306,8 +310,9 @@ TEST(RestitutionOfAContact, FallsToItsLeast) {
   EXPECT_EQ(restitution_under_law(rules, 0, wall, 1.0), 0.25);
 }
 
-// May a contact lose energy? By the law of the two disks, fixed or not, by the wall's own restitution, or along
-// surfaces: of disks beside a disk, of walls beside a wall; a thermal side draws, and loses nothing by its surface.
+// Whether a contact may lose energy is decided by the law of the two disks, fixed or not, by the wall's own
+// restitution, or by the surfaces: those of disks for a pair, those of walls for a wall. A thermal side draws
+// velocities, and its surface loses nothing.
 TEST(RestitutionOfAContact, TellsWhetherItMayLoseEnergy) {
   const DiskId floor = wall_partner(Side::bottom);
   StepRules rules = rules_of(0.0, 1.0);
@@ -333,8 +338,9 @@ TEST(RestitutionOfAContact, TellsWhetherItMayLoseEnergy) {
   EXPECT_FALSE(may_lose_energy(rules, 0, floor));
 }
 
-// In a sheared box the stress is the virial along x and y: the momentum along x that goes along y. Across the top the
-// image has so much more energy than the disk: the jump times the momentum, which the shear does not give.
+// In a sheared box the shear stress is the virial along x and y: the momentum along x that is transferred along y. For
+// a pair across the top the image's energy differs from the disk's by the jump times the momentum; that is the work of
+// the shear.
 TEST(SeeShear, CountsMomentumThatGoesAlongY) {
   const Relative r{0.6, 0.8, -1.0, -2.0};
   Shear shear;
@@ -354,7 +360,7 @@ TEST(SeeShear, CountsMomentumThatGoesAlongY) {
   }
 }
 
-// A frame of rollback leaves no disk in a wall or in something fixed, though it moves away and nothing collides.
+// A frame of rollback leaves no disk in a wall or in an obstacle, even if the disk moves away and nothing collides.
 TEST(MeetWalls, PushesADiskThatMovesAway) {
   StepRules rules = rules_of(0.0, 1.0);
   const ObstacleCells cells({{10.0, 5.0, 0.0, 0.0, 2.0, 1.0}}, {}, rules.box);
@@ -373,8 +379,8 @@ TEST(MeetWalls, PushesADiskThatMovesAway) {
   EXPECT_EQ(seen.size, 0.0);
 }
 
-// A pair bounces at a distance (F2) where all go back further than to its contact; by a billionth of the frame is
-// rounding.
+// A pair bounces at a distance (F2) if all disks go back further than to its contact; up to a billionth of the frame
+// counts as rounding.
 TEST(Rollback, TellsAPairThatBouncesAtADistance) {
   const StepRules rules = rules_of(0.0, 1.0);
   const ContactEvent e{0.0625, 0, 1, 0, 1};

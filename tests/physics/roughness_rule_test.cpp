@@ -1,4 +1,4 @@
-// The rule of rough disks by hand: one contact at a time.
+// The rule of rough disks, computed by hand for one contact at a time.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,21 +10,21 @@
 namespace carom {
 namespace {
 
-// Two disks that touch, and what a collision makes of them.
+// Two disks that touch, and their state after a collision.
 struct Pair {
   double x1 = 0.0, y1 = 0.0, x2 = 2.0, y2 = 0.0;
   double r1 = 1.0, r2 = 1.0, m1 = 1.0, m2 = 1.0;
   double vx1 = 0.0, vy1 = 0.0, vx2 = 0.0, vy2 = 0.0, w1 = 0.0, w2 = 0.0;
 
   Relative relative() const { return {x2 - x1, y2 - y1, vx2 - vx1, vy2 - vy1}; }
-  // Velocity of the second one's surface along the first one's, counter-clockwise around the first.
+  // The velocity of the second disk's surface along the first one's, counter-clockwise around the first disk.
   double slip() const {
     const Relative r = relative();
     return (r.dx * r.dvy - r.dy * r.dvx) / std::sqrt(r.distance2()) - (r1 * w1 + r2 * w2);
   }
   double momentum_x() const { return m1 * vx1 + m2 * vx2; }
   double momentum_y() const { return m1 * vy1 + m2 * vy2; }
-  // About (x, y).
+  // The angular momentum about (x, y).
   double angular_momentum(double x, double y, double q) const {
     const double orbital = m1 * ((x1 - x) * vy1 - (y1 - y) * vx1) + m2 * ((x2 - x) * vy2 - (y2 - y) * vx2);
     return orbital + q * (m1 * r1 * r1 * w1 + m2 * r2 * r2 * w2);
@@ -47,7 +47,7 @@ Surfaces rough(double b, double mu = HUGE_VAL, double q = 0.5) {
   return {q, {b, mu}, {}};
 }
 
-// Slip -3, which is turned around: an impulse of 2 (1/3) 3 = 2 reduced masses, one for each disk.
+// A slip of -3 is reversed by an impulse of 2 (1/3) 3 = 2 reduced masses, which acts on both disks.
 TEST(RoughPair, HeadOnWithSpin) {
   Pair p;
   p.vx1 = 1.0;
@@ -62,7 +62,7 @@ TEST(RoughPair, HeadOnWithSpin) {
   EXPECT_DOUBLE_EQ(after.w2, -2.0);
 }
 
-// With b = 0 the surfaces stop on each other: like two wheels that touch.
+// With b = 0 the slip stops, as for two wheels that touch.
 TEST(RoughPair, WithoutTangentialRestitutionTheSlipStops) {
   Pair p;
   p.vx1 = 1.0;
@@ -85,8 +85,8 @@ TEST(RoughPair, GrazingSlides) {
   EXPECT_NEAR(after.w2, -k, 1e-17);
 }
 
-// The impulse that sticking asks for is (1 + b) q / (1 + q) slip: with friction a little above that over the normal one
-// it sticks, with a little less it slides.
+// Sticking needs an impulse of (1 + b) q / (1 + q) slip. With a coefficient of friction a little above its ratio to the
+// normal impulse the contact sticks, with one a little below it slides.
 TEST(RoughPair, SticksOrSlidesByFriction) {
   Pair p;
   p.vx1 = 1.0;
@@ -98,11 +98,11 @@ TEST(RoughPair, SticksOrSlidesByFriction) {
   const Pair sliding = collided(p, rough(b, 0.5 * border, q), e);
   EXPECT_NEAR(sticking.slip(), -b * p.slip(), 1e-15);
   EXPECT_NEAR(sliding.vy2, -0.25 * asked, 1e-15);
-  EXPECT_GT(sliding.slip(), 0.0) << "it still slides the way it did";
+  EXPECT_GT(sliding.slip(), 0.0) << "sliding must not reverse the slip";
 }
 
-// Whatever sizes, masses and spins are: momentum and angular momentum about any point stay, the slip becomes -b of what
-// it was, energy is lost by a formula: the reduced mass q / (1 + q) of the slip, (1 - b^2) / 2 of it squared.
+// For any sizes, masses and spins: momentum and angular momentum about any point are conserved, the slip becomes -b
+// times what it was, and the energy lost is (1 - b^2) / 2 of the slip squared times the reduced mass and q / (1 + q).
 TEST(RoughPair, Conserves) {
   test::Draws draws(3);
   for (int k = 0; k < 2000; ++k) {
@@ -135,8 +135,8 @@ TEST(RoughPair, Conserves) {
   }
 }
 
-// Without a limit a contact sticks however lightly it is pressed: (1 + b) q / (1 + q) of the slip turns round. With one
-// that is not pressed at all slides freely.
+// Without a limit to friction a contact sticks however lightly it is pressed: (1 + b) q / (1 + q) of the slip is
+// reversed. With a limit a contact without pressure slides freely.
 TEST(Rub, SticksWithoutBeingPressed) {
   for (const double pressed : {0.0, 1e-300, 1.0}) {
     EXPECT_DOUBLE_EQ(rub({0.5, HUGE_VAL}, 0.5, 2.0, pressed), -1.0) << pressed;
@@ -146,7 +146,8 @@ TEST(Rub, SticksWithoutBeingPressed) {
   EXPECT_DOUBLE_EQ(rub({0.5, 0.3}, 0.5, -2.0, 1.0), 0.3);
 }
 
-// Smooth by b = -1 or by mu = 0: velocities have the bits of the rule without roughness, zeros their signs.
+// Surfaces that are smooth by b = -1 or by mu = 0 leave all velocities with the same bits as the rule without
+// roughness, including the signs of zeros.
 TEST(RoughPair, SmoothSurfacesChangeNoBit) {
   test::Draws draws(4);
   for (int k = 0; k < 1000; ++k) {
@@ -166,8 +167,8 @@ TEST(RoughPair, SmoothSurfacesChangeNoBit) {
   }
 }
 
-// A disk that flies along a floor without spin is brought to roll by b = 0: v = 2/3 of what it was where q = 1/2, and
-// its surface stands still on the floor: it turns clockwise where it moves to the right.
+// A disk flies along a floor without spin, and b = 0 makes it roll: with q = 1/2 its speed becomes 2/3 of what it was,
+// its surface is at rest on the floor, and it turns clockwise if it moves to the right.
 TEST(RoughWall, BringsADiskToRoll) {
   double vx = 3.0, vy = 1.0, w = 0.0;
   rub_wall({0.0, HUGE_VAL}, 0.5, {0.0, 1.0}, 2.0, {2.0, vx, vy, w});
@@ -177,11 +178,11 @@ TEST(RoughWall, BringsADiskToRoll) {
   EXPECT_DOUBLE_EQ(vx + 2.0 * w, 0.0);
 }
 
-// The same on every side, turned; and sliding, where the speed lost is mu times the change of the normal speed.
+// The same for every side, rotated; and sliding, where the speed lost is mu times the change of the normal speed.
 TEST(RoughWall, IsTheSameInAnyDirection) {
   for (const double angle : {0.3, 1.7, 3.2, 5.0}) {
     const double nx = std::cos(angle), ny = std::sin(angle);
-    const double along_x = ny, along_y = -nx;  // clockwise from the normal: to the right on a floor
+    const double along_x = ny, along_y = -nx;  // clockwise from the normal: on a floor, to the right
     double vx = 3.0 * along_x + nx, vy = 3.0 * along_y + ny, w = 0.0;
     rub_wall({0.0, HUGE_VAL}, 0.5, {nx, ny}, 2.0, {2.0, vx, vy, w});
     EXPECT_NEAR(vx * along_x + vy * along_y, 2.0, 1e-14);

@@ -1,5 +1,5 @@
-// The rules of disks that come to rest, contact by contact: what counts as a support, what overlap a loaded contact
-// keeps, how others are pushed apart.
+// The rules for disks that come to rest, for single contacts: what counts as a support, what overlap a loaded contact
+// keeps, and how other disks are pushed apart.
 #include "tests/support/settling_rules.hpp"
 
 #include <gtest/gtest.h>
@@ -23,8 +23,8 @@ using test::settling_rules;
 constexpr double g = test::settling_gravity;
 constexpr double dt = test::settling_dt;
 
-// An approach of up to 64 g dt where a disk of the contact has another one, of up to 2 g dt where it only lies on a
-// wall; two disks alone are none.
+// A contact is a support if its speed of approach is at most 64 g dt and one of its disks has another contact, or at
+// most 2 g dt for a disk that only lies on a wall. Two disks without further contacts are not.
 TEST(Support, IsASlowContact) {
   const StepRules rules = settling_rules();
   const auto is_support_at = [&](double speed, bool against_wall, bool loaded, bool crowded) {
@@ -43,7 +43,7 @@ TEST(Support, IsASlowContact) {
   }
 }
 
-// Off the line along x or y too: the approach is along the line of centres, per its length.
+// Off the axes, too, the speed of approach is that along the line of centres.
 TEST(Support, AsksForTheSpeedAlongTheLineOfCentres) {
   const StepRules rules = settling_rules();
   for (const double factor : {63.9, 64.1}) {
@@ -55,7 +55,7 @@ TEST(Support, AsksForTheSpeedAlongTheLineOfCentres) {
   }
 }
 
-// A wall without loss lets a disk bounce for ever; a thermal one draws.
+// A wall that loses no energy lets a disk bounce for ever, and a thermal wall draws velocities: neither is a support.
 TEST(Support, IsNoElasticWallAndNoThermalOne) {
   StepRules rules = settling_rules();
   Disks disks = test::disks_of({{5.0, 1.0, 0.0, 0.0, 1.0, 1.0}});
@@ -73,7 +73,7 @@ TEST(Support, IsNoElasticWallAndNoThermalOne) {
   EXPECT_FALSE(support(true, true));
 }
 
-// All that dissipate are solved together where a disk has two contacts, however fast they are.
+// If a disk has two contacts, all its dissipating contacts are solved together, however fast they are.
 TEST(Support, IsSolvedWithAllCrowdedContactsThatDissipate) {
   StepRules rules = settling_rules();
   Disks disks = test::disks_of({{5.0, 1.0, 0.0, 0.0, 1.0, 1.0}, {7.0, 1.0, -1e4 * g * dt, 0.0, 1.0, 1.0}});
@@ -86,7 +86,7 @@ TEST(Support, IsSolvedWithAllCrowdedContactsThatDissipate) {
   EXPECT_FALSE(solved(true));
 }
 
-// What counts is the speed in the frame of a side, or of an inner wall, that moves.
+// The speed is that in the frame of a moving side or inner wall.
 TEST(Support, IsASlowContactInTheFrameOfTheWall) {
   StepRules rules = settling_rules();
   rules.box.places[2] = {0.0, 1.0, 0.0};
@@ -106,7 +106,7 @@ TEST(Support, IsASlowContactInTheFrameOfTheWall) {
   }
 }
 
-// Of the two disks, not of one of them with another.
+// The load of a contact is that between the same two disks, not that of one of them with another disk.
 TEST(Load, IsThatOfTheSameContact) {
   const std::vector<ContactLoad> loads{{0, 2, 3.0}, {1, 2, 5.0}};
   EXPECT_EQ(load_of(loads, contact_of(0, 2)), 3.0);
@@ -116,7 +116,7 @@ TEST(Load, IsThatOfTheSameContact) {
   EXPECT_EQ(load_of(loads, contact_of(2, 3)), 0.0);
 }
 
-// 64 g dt^2, and half a percent of the sum of the radii (of the radius, at a wall) at most.
+// The slack is 64 g dt^2, but at most half a percent of the sum of the radii (at a wall, of the radius).
 TEST(Slack, IsThatOfAFewSteps) {
   StepRules rules = settling_rules();
   Disks disks = test::disks_of({{5.0, 3.0, 0.0, 0.0, 3.0, 1.0}, {9.0, 3.0, 0.0, 0.0, 1.0, 1.0}});
@@ -130,7 +130,7 @@ TEST(Slack, IsThatOfAFewSteps) {
   EXPECT_DOUBLE_EQ(slack(wall_partner(Side::bottom)), 0.005 * 3.0);
 }
 
-// Beyond each side by 0.3: a loaded contact keeps its slack, any other ends at the wall.
+// A disk 0.3 beyond each side: a loaded contact keeps its slack, any other disk is put back to touch the wall.
 TEST(PushApart, PutsADiskBackToAWall) {
   const Domain box = test::box_of(20.0, 10.0);
   for (const Side side : all_sides) {
@@ -147,11 +147,11 @@ TEST(PushApart, PutsADiskBackToAWall) {
   }
 }
 
-// By mass, so that the centre of mass stays.
+// The displacements are divided by mass, so the centre of mass stays.
 TEST(PushApart, PartsTwoDisksByMass) {
   const Domain box = test::box_of(20.0, 10.0);
   for (const double slack : {0.0, 0.05}) {
-    Disks disks = test::disks_of({{5.0, 5.0, 0.0, 0.0, 1.0, 1.0}, {6.08, 6.44, 0.0, 0.0, 1.0, 3.0}});  // 0.2 overlap
+    Disks disks = test::disks_of({{5.0, 5.0, 0.0, 0.0, 1.0, 1.0}, {6.08, 6.44, 0.0, 0.0, 1.0, 3.0}});  // overlap 0.2
     with_view(disks, [&](const auto& d) { push_apart(d, box, contact_of(0, 1), slack); });
     const double pushed = 0.2 - slack;
     EXPECT_NEAR(disks.x[0], 5.0 - 0.75 * 0.6 * pushed, 1e-14);
@@ -165,12 +165,12 @@ TEST(PushApart, PartsTwoDisksByMass) {
   EXPECT_EQ(one_place.x[1], 6.0);
 }
 
-// Walls and fixed disks do not give way: a disk that is pushed into one ends a thousandth of its radius in it.
+// Walls and fixed disks do not give way: a disk pushed into one is left at most a thousandth of its radius in it.
 TEST(PushApart, LeavesNoDiskInAWall) {
   Domain box = test::box_of(20.0, 10.0);
   const ObstacleCells cells({{12.5, 5.0, 0.0, 0.0, 0.5, 1.0}}, {}, box);
   box.obstacles = &cells;
-  // Both ends of a pair, at the wall to the left and at the fixed disk.
+  // Either disk of the pair is at the wall to the left or at the fixed disk.
   for (const bool second : {false, true}) {
     Disks left =
         test::disks_of({{second ? 2.6 : 1.0, 5.0, 0.0, 0.0, 1.0, 1.0}, {second ? 1.0 : 2.6, 5.0, 0.0, 0.0, 1.0, 1.0}});
@@ -184,7 +184,7 @@ TEST(PushApart, LeavesNoDiskInAWall) {
   }
 }
 
-// Out of a fixed disk along the line of centres.
+// The disk is moved out of a fixed disk along the line of centres.
 TEST(PushApart, PutsADiskBackToAnObstacle) {
   Domain box = test::box_of(20.0, 10.0);
   const ObstacleCells cells({{5.0, 5.0, 0.0, 0.0, 1.0, 1.0}}, {}, box);
@@ -198,8 +198,8 @@ TEST(PushApart, PutsADiskBackToAnObstacle) {
   }
 }
 
-// Deeper than a share of the sum of the radii, and slack besides; a disk that keep_inside has left in a wall by that
-// share is not deep, whatever rounding says.
+// A contact is deep if its overlap exceeds a share of the sum of the radii plus the slack. Rounding must not decide on
+// a disk that keep_inside has left in a wall by just that share.
 TEST(PushApart, TellsWhatIsDeep) {
   const Domain box = test::box_of(20.0, 10.0);
   const auto deep = [&](const std::vector<Disk>& list, DiskId other, double slack) {
@@ -222,8 +222,8 @@ TEST(PushApart, TellsWhatIsDeep) {
   EXPECT_FALSE(deep(at_floor(0.119), floor, 0.1));
 }
 
-// Sweeps go on for the deep ones: for a tenth of a percent at first, for half a percent after 32 sweeps or where the
-// contact bears load.
+// Further sweeps push deep contacts only: those with an overlap above a tenth of a percent, or above half a percent
+// after 32 sweeps or if the contact is loaded.
 TEST(PushApart, GoesOnForWhatIsDeepEnough) {
   EXPECT_EQ(overlap_to_push(31, false), 1e-3);
   EXPECT_EQ(overlap_to_push(32, false), 5e-3);
@@ -234,7 +234,7 @@ TEST(PushApart, GoesOnForWhatIsDeepEnough) {
   EXPECT_EQ(push_sweeps(rules), 4);
 }
 
-// The first sweep pushes all contacts, later ones those that are crowded and deep.
+// The first sweep pushes all contacts, later sweeps those that are both crowded and deep.
 TEST(PushApart, TakesCrowdedContactsAgain) {
   const StepRules rules = settling_rules();
   const auto pushed = [&](int sweep, bool crowded, double overlap) {
@@ -248,8 +248,8 @@ TEST(PushApart, TakesCrowdedContactsAgain) {
   EXPECT_FALSE(pushed(1, true, 1e-3));
 }
 
-// A disk that bears on a wall, or on something fixed, and was lifted off by less than the slack is laid back in the
-// first sweep; one further away is not.
+// A disk that bears on a wall or an obstacle, and was lifted off by less than the slack, is put back in the first
+// sweep; one further away is not.
 TEST(PushApart, LaysALoadedDiskBack) {
   StepRules rules = settling_rules();
   const ObstacleCells cells({{5.0, 5.0, 0.0, 0.0, 1.0, 0.5}}, {}, rules.box);
@@ -275,7 +275,8 @@ TEST(PushApart, LaysALoadedDiskBack) {
   }
 }
 
-// A disk displaced by half a percent of its radius is asked again, one that lies one percent in something is pressed.
+// A disk that was displaced by more than half a percent of its radius is looked at again; a disk that lies one percent
+// deep in a wall or obstacle counts as pressed.
 TEST(Rounds, GoOnForDisksThatAreDisplacedAndPressed) {
   Domain box = test::box_of(20.0, 10.0);
   const ObstacleCells cells({{12.0, 5.0, 0.0, 0.0, 1.0, 1.0}}, {}, box);

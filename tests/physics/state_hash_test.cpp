@@ -1,4 +1,4 @@
-// The fingerprint of a state: what it depends on, what it does not, and its value.
+// The hash of a state: what it depends on, what it does not depend on, and its value.
 #include "core/disks/state_hash.hpp"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ TEST(StateHash, DependsOnEveryColumn) {
   EXPECT_NE(hash, state_hash(fewer));
 }
 
-// Of rough disks the spins count, too; those of smooth ones are no column.
+// The spins of rough disks count; smooth disks have no such column.
 TEST(StateHash, DependsOnSpins) {
   Disks disks = some_disks();
   const std::uint64_t smooth = state_hash(disks);
@@ -56,7 +56,7 @@ TEST(StateHash, DependsOnSpins) {
   EXPECT_NE(hash, state_hash(disks));
 }
 
-// Bit patterns count, so the two zeros differ: an engine that gives the other one is not the same.
+// Bit patterns count, so the two zeros differ: an engine that gives the other zero is not the same.
 TEST(StateHash, MinusZeroDiffers) {
   Disks disks = some_disks();
   const std::uint64_t hash = state_hash(disks);
@@ -64,7 +64,7 @@ TEST(StateHash, MinusZeroDiffers) {
   EXPECT_NE(hash, state_hash(disks));
 }
 
-// Pinned: summaries and golden tests of other machines and versions carry such values.
+// The values are fixed, since summaries and golden tests of other machines and versions contain them.
 TEST(StateHash, Pinned) {
   EXPECT_EQ(hash_text(state_hash(some_disks())), "b7b6147734996984");
   EXPECT_EQ(hash_text(state_hash({})), "e220a8397b1dcdaf");  // the first output of splitmix64 from 0

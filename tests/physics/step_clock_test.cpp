@@ -1,4 +1,4 @@
-// Where steps lie in time, and into how many parts a long one is split.
+// The times of steps, and the number of parts into which a long step is divided.
 #include "core/step/step_clock.hpp"
 
 #include <gmock/gmock.h>
@@ -14,7 +14,7 @@
 namespace carom {
 namespace {
 
-// What a step of 1 time unit, too long by far, is refused with.
+// The message with which a step of 1 time unit, far too long, is refused.
 std::string refusal_of(double travel2) {
   try {
     parts_of_step(travel2, 0.0, 1.0);
@@ -34,12 +34,12 @@ TEST(StepClock, TimesAreProducts) {
     EXPECT_EQ(clock.length(k), 0.1);
     sum += 0.1;
   }
-  EXPECT_NE(sum, clock.end(998));  // what adding up would have made of it
+  EXPECT_NE(sum, clock.end(998));  // adding up dt would give another time
   EXPECT_EQ(clock.end(999), 100.0);
   EXPECT_EQ(clock.length(999), 0.1);
 }
 
-// Quotients that decimals make of whole numbers, a little above and a little below.
+// Decimal numbers whose quotient is nearly a whole number, a little above or below it.
 TEST(StepClock, NearlyWholeQuotients) {
   EXPECT_EQ(make_step_clock(0.1, 0.3).steps, 3U);  // 0.3 / 0.1 < 3
   EXPECT_EQ(make_step_clock(0.01, 10.0).steps, 1000U);
@@ -63,7 +63,7 @@ TEST(StepClock, LastStepIsShortWhereTheTimeIsNoMultiple) {
   EXPECT_EQ(make_step_clock(0.1, 0.0).steps, 0U);
 }
 
-// Engines end at t_end itself, having moved a free disk by v t_end.
+// Engines end exactly at t_end, when a free disk has moved by v t_end.
 TEST(StepClock, EnginesEndAtTheEnd) {
   for (Method method : test::stepping_methods) {
     for (const double dt : {0.25, 0.3, 5.0}) {
@@ -72,14 +72,14 @@ TEST(StepClock, EnginesEndAtTheEnd) {
       EXPECT_EQ(end.time, 1.0625) << test::name_of(method);
       EXPECT_NEAR(end.disks.x[0], 4.125, 1e-14);
       const auto engine = make_reference_engine(scene, end);
-      engine->step();  // nothing is left to do
+      engine->step();  // no time is left, so this must do nothing
       EXPECT_EQ(engine->state().time, 1.0625);
       EXPECT_EQ(engine->state().disks.x[0], end.disks.x[0]);
     }
   }
 }
 
-// However fast the disk is, the number in the message is one that people can read.
+// For disks of any speed the number in the message has few digits.
 TEST(Parts, AStepFarTooLongIsSaidInFewDigits) {
   EXPECT_EQ(refusal_of(4e6),
             "run.dt: the fastest disk moves 2000 radii in one step, more than 500; choose a smaller dt "
@@ -92,7 +92,7 @@ TEST(Parts, NoDiskMovesMoreThanHalfItsRadius) {
   EXPECT_EQ(parts_of_step(1.0, 0.0, 0.5), 1U);
   EXPECT_EQ(parts_of_step(1.0, 0.0, 0.501), 2U);
   EXPECT_EQ(parts_of_step(900.0, 0.0, 1.0), 60U);
-  EXPECT_EQ(parts_of_step(0.25, 0.5, 1.0), 2U);  // gravity's share counts
+  EXPECT_EQ(parts_of_step(0.25, 0.5, 1.0), 2U);  // gravity contributes
   EXPECT_EQ(parts_of_step(250000.0, 0.0, 1.0), 1000U);
   test::Draws draws(1);
   for (int k = 0; k < 1000; ++k) {
@@ -114,8 +114,8 @@ TEST(Parts, AbsurdStepsAreRefused) {
   }
 }
 
-// Within 1e-9 of a whole number of steps it is that number, and the last one is full; further off there is one more, or
-// the last one is short.
+// A quotient within 1e-9 of a whole number gives that number of steps, and the last one is full; otherwise there is one
+// more step, or the last one is short.
 TEST(StepClock, AQuotientIsWholeWithinABillionth) {
   for (const double off : {-9e-10, 9e-10}) {
     const StepClock whole = make_step_clock(0.5, 50.0 * (1.0 + off));
@@ -130,7 +130,7 @@ TEST(StepClock, AQuotientIsWholeWithinABillionth) {
   EXPECT_LT(less.length(99), 0.5);
 }
 
-// The time that disks were there, over a million steps: no further off than one rounding of the sum.
+// The time summed over a million steps is wrong by at most one rounding of the sum.
 TEST(CountStep, AddsUpWithoutDrift) {
   Counters counters;
   for (int k = 0; k < 1000000; ++k) count_step(counters, 0.1);

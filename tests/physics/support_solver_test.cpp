@@ -1,5 +1,5 @@
-// Contacts that bear load: what one support does, walls that move included, and when the cycles that solve all of them
-// end.
+// Contacts that bear load: the effect of a single support, moving walls included, and when the cycles that solve all
+// supports end.
 #include "core/physics/support_solver.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ using test::settling_rules;
 constexpr double g = test::settling_gravity;
 constexpr double dt = test::settling_dt;
 
-// The only support of a set.
+// Begins the only support of a set.
 Support begun(SupportSet& set, Disks& disks, const StepRules& rules, const ContactEvent& e, double force) {
   for (auto* column : {&set.impulse, &set.counted, &set.contact_distance}) column->resize(1);
   return with_view(disks, [&](const auto& d) {
@@ -31,8 +31,8 @@ Support begun(SupportSet& set, Disks& disks, const StepRules& rules, const Conta
   });
 }
 
-// A floor that comes up at 0.5 stops a disk that falls at 2 at 0.5, with the impulse m (2 + 0.5), and does work by it;
-// a fixed wall at 0.
+// A floor that rises at 0.5 stops a disk falling at 2 at the floor's speed, with the impulse m (2 + 0.5), and does the
+// work of that impulse; a fixed wall stops it at speed 0, without work.
 TEST(WallSupport, StopsADiskInTheFrameOfTheWall) {
   for (const Side side : all_sides) {
     for (const double wall_speed : {0.0, 0.5}) {
@@ -61,8 +61,8 @@ TEST(WallSupport, StopsADiskInTheFrameOfTheWall) {
   }
 }
 
-// An inner wall that comes at (-0.3, 0.4), whose normal is (-3, 4) / 5: at 0.5 along it. It gives a disk the momentum
-// of the impulse, and the work of that at its velocity.
+// An inner wall with velocity (-0.3, 0.4) and normal (-3, 4) / 5 moves at 0.5 along its normal. It gives the disk the
+// momentum of the impulse, and does that impulse's work at its own velocity.
 TEST(WallSupport, OfAnInnerWallGivesMomentumAndWork) {
   StepRules rules = settling_rules();
   const Obstacle slope{1.0, 2.0, 4.0, 3.0, 0.0, 0.5, 0, ObstacleKind::wall, true};
@@ -95,8 +95,8 @@ TEST(WallSupport, OfAnInnerWallGivesMomentumAndWork) {
   EXPECT_NEAR(counters.wall_push[0], -0.6 * impulse, 1e-11);
 }
 
-// A load acts all through the step: half its impulse times dt over the mass is the way. What the step before found is
-// where the solver begins, and later rounds count what is new.
+// A load acts during the whole step, so the way is half its impulse times dt over the mass. The solver begins with the
+// load of the step before; later rounds count only what is added.
 TEST(Load, ActsAllThroughTheStep) {
   StepRules rules = settling_rules();
   Disks disks = test::disks_of({{5.0, 5.0, 0.0, 0.0, 1.0, 1.0}, {7.0, 5.0, 0.0, 0.0, 1.0, 4.0}});
@@ -114,7 +114,7 @@ TEST(Load, ActsAllThroughTheStep) {
   EXPECT_NEAR(disks.x[1], 7.0 + 0.5 * 8.0 * dt / 4.0, 1e-15);
 }
 
-// Disks in one place bear on each other along x, the way in which they are parted.
+// Disks in one place bear on each other along x, the direction in which they are pushed apart.
 TEST(Load, OfCoincidentDisksHasADirection) {
   const StepRules rules = settling_rules();
   Disks disks = test::disks_of({{5.0, 5.0, 1.0, 0.0, 1.0, 2.0}, {5.0, 5.0, -1.0, 0.0, 1.0, 2.0}});
@@ -125,7 +125,7 @@ TEST(Load, OfCoincidentDisksHasADirection) {
   EXPECT_EQ(s.effective, 1.0);
 }
 
-// Parts of a step are tallied apart: what supports bore counts where nothing collided, too.
+// Parts of a step are tallied separately: the load of supports counts even if nothing collided.
 TEST(Load, CountsWhereNothingCollides) {
   const StepRules rules = settling_rules();
   Disks disks = test::disks_of({{5.0, 1.0, 0.0, 0.0, 1.0, 1.0}, {7.0, 1.0, 0.0, 0.0, 1.0, 1.0}});
@@ -143,7 +143,7 @@ TEST(Load, CountsWhereNothingCollides) {
   }
 }
 
-// Of two disks by the mass that their contact feels; at a wall the impulse alone, whatever the radius.
+// For two disks the effective mass is their reduced mass; at a wall the load is the impulse alone, whatever the radius.
 TEST(Load, IsOfTheMassThatTheContactFeels) {
   const StepRules rules = settling_rules();
   Disks disks = test::disks_of({{5.0, 0.5, 0.0, 0.0, 0.5, 3.0}, {6.0, 0.5, 0.0, 0.0, 0.5, 1.0}});
@@ -154,10 +154,10 @@ TEST(Load, IsOfTheMassThatTheContactFeels) {
   EXPECT_DOUBLE_EQ(borne(set, 0, at_wall), 8.0 * dt);
 }
 
-// Cycles of sweeps that change what a script says.
+// Sweeps whose changes are those that a script gives for each cycle.
 struct ScriptedSweeps {
   std::function<CycleFigures(int)> script;
-  double impulse = 0.0, mass = 1.0;  // of all supports
+  double impulse = 0.0, mass = 1.0;  // sum over all supports
   mutable int cycles = 0;
   mutable std::vector<double> momenta;
   mutable std::vector<int> watched, weighed;
@@ -195,8 +195,8 @@ int cycles_of(const std::function<CycleFigures(int)>& script, double layers = 0.
   return sweeps.cycles;
 }
 
-// Twelve cycles, or twenty-four where something lands, and no more from where changes are 5e-4 of g dt, or of the
-// first.
+// There are at most twelve cycles, or twenty-four if something lands; they end as soon as changes are below 5e-4 of g
+// dt, or of the first cycle's change.
 TEST(SupportCycles, AreMoreWhereSomethingLands) {
   EXPECT_EQ(cycles_of([](int) { return changes(4.9e-4 * fall); }), 1);
   EXPECT_EQ(cycles_of([](int k) { return changes(k < 2 ? fall : 4.9e-4 * fall); }), 2);
@@ -205,14 +205,14 @@ TEST(SupportCycles, AreMoreWhereSomethingLands) {
   EXPECT_EQ(cycles_of([](int k) { return changes(k == 1 ? 5.0 : k < 14 ? 2.6e-3 : 2.4e-3); }), 16);
 }
 
-// They go on while disks would be pressed together by more than a thousandth of their radii in a step, 256 at most.
+// Cycles go on, up to 256, while disks would be pressed together by more than a thousandth of their radii in a step.
 TEST(SupportCycles, GoOnWhileDisksArePressedTogether) {
   const double much = 1.1e-3 / dt, little = 0.9e-3 / dt;
   EXPECT_EQ(cycles_of([&](int k) { return changes(fall, k < 99 ? much : little); }), 100);
   EXPECT_EQ(cycles_of([&](int) { return changes(fall, much); }), 256);
 }
 
-// In a pile 200 layers high that trembles they go on to 40, or until it is calm; not where it lands.
+// In a pile of 200 layers that trembles cycles go on up to 40, or until it is calm; not if something lands.
 TEST(SupportCycles, GoOnWhileAPileTrembles) {
   const double calm = 3e-4 * fall, trembling = fall;
   EXPECT_EQ(cycles_of([&](int) { return changes(fall, 0.0, 1.1 * calm * calm); }, 201.0), 40);
@@ -221,7 +221,8 @@ TEST(SupportCycles, GoOnWhileAPileTrembles) {
   EXPECT_EQ(cycles_of([&](int) { return changes(fall, 0.0, 1.1 * trembling * trembling); }, 201.0), 12);
 }
 
-// Momentum grows with its age, and begins anew where it overshoots. The first two cycles are watched, and each fourth.
+// Momentum grows with its age, and starts anew after an overshoot. Changes are looked at in the first two cycles, and
+// in each fourth.
 TEST(SupportCycles, TakeMomentumUntilItOvershoots) {
   const ScriptedSweeps sweeps{
       [](int k) { return changes(fall, 0.0, 0.0, k == 4 ? -1.0 : 1.0); }, 0.0, 1.0, 0, {}, {}, {}};
@@ -233,7 +234,7 @@ TEST(SupportCycles, TakeMomentumUntilItOvershoots) {
   EXPECT_EQ(sweeps.weighed, (std::vector<int>{4, 8, 12}));
 }
 
-// Of parts the larger figures, and the sums.
+// The figures of several parts: the larger ones, and the sums.
 TEST(SupportCycles, HaveTheFiguresOfTheirParts) {
   for (const bool first_larger : {true, false}) {
     CycleFigures all = changes(first_larger ? 3.0 : 1.0, first_larger ? 0.5 : 0.25, 1.0, -2.0);

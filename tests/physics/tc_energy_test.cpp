@@ -1,4 +1,4 @@
-// The TC model does nothing where nothing dissipates; energy that a run has gained is reported at its end.
+// The TC model changes nothing if nothing dissipates; energy that a run has gained is reported at its end.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -55,7 +55,7 @@ TEST(TcEnergy, AnElasticGasUnderGravityKeepsItsEnergy) {
   EXPECT_EQ(state_hash(run_reference(scene, start).disks), state_hash(end.disks));
 }
 
-// contact_time so long that all but the first collisions are elastic, and hops at the floor are faster than the gas.
+// contact_time is so long that all but the first collisions are elastic, and hops on the floor are faster than the gas.
 TEST(TcEnergy, AGasThatIsHeatedByItsHopsWarns) {
   const Scene scene = gas_scene(0.9, 10.0);
   const State start = initial_state(scene);
@@ -66,8 +66,8 @@ TEST(TcEnergy, AGasThatIsHeatedByItsHopsWarns) {
               ElementsAre(AllOf(HasSubstr("was put in"), HasSubstr("contact_time = 10 is long"))));
 }
 
-// A disk that lies on the floor has to hop, with an energy of m (g t_c)^2 / 32: negligible for a short contact time,
-// reported for a long one.
+// In the TC model a disk lying on the floor hops, with an energy of m (g t_c)^2 / 32: negligible for a short contact
+// time, reported for a long one.
 TEST(TcEnergy, EnergyGainIsReported) {
   Domain box;
   box.width = box.height = 10.0;
@@ -125,8 +125,8 @@ TEST_F(TcEnergyRun, IsWarnedOfAndEndsAStrictRun) {
   EXPECT_THAT(strict.err, HasSubstr("(--strict)"));
 }
 
-// A potential is negative where gravity pulls to the right or up; along periodic sides disks gain by falling, and one
-// that leaves may take less than nothing with it.
+// The potential energy is negative if gravity pulls to the right or up; along periodic sides disks gain energy by
+// falling, and a disk that leaves may take negative energy with it. None of this is a gain to be reported.
 TEST(TcEnergy, GravityInAnyDirectionIsNoGain) {
   const std::string disks =
       "[[disks]]\ncount = 20\npositions = \"square\"\nvelocities = { maxwell = 0.5 }\n"

@@ -1,4 +1,4 @@
-// What obstacles do to a disk under the TC model: elastic contacts, hops, friction, and those that move.
+// Obstacles in the TC model: elastic contacts, hops, friction, and moving obstacles.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -15,10 +15,10 @@ using test::contact_time;
 using test::disk_at;
 using test::tc_rules;
 
-// With one obstacle.
+// The rules of a box with one obstacle.
 class TcObstacle : public ::testing::Test {
  protected:
-  // rules.box has this one.
+  // Makes this the obstacle of rules.box.
   void place(const Obstacle& o, const WallMotion& motion = {}) {
     std::vector<WallMotion> motions;
     if (o.moves) motions.push_back(motion);
@@ -35,7 +35,8 @@ class TcObstacle : public ::testing::Test {
   std::unique_ptr<ObstacleCells> cells_;
 };
 
-// By the part of gravity that presses it there, from a fixed disk as from a slope: n = (-3, 4) / 5.
+// The hop is given by the component of gravity that presses the disk to the obstacle, a fixed disk or a slope: n = (-3,
+// 4) / 5.
 TEST_F(TcObstacle, IsLeftWithAHop) {
   rules.gravity = 0.8;
   const double hop = 0.25 * 0.8 * 0.8 * contact_time;
@@ -54,7 +55,7 @@ TEST_F(TcObstacle, IsLeftWithAHop) {
   EXPECT_NEAR(impact.impulse, 2.0 * hop, 1e-15);
 }
 
-// One that comes in slowly leaves with the hop, not with its rebound and the hop.
+// A disk that comes in slowly leaves with the speed of the hop alone, not with that of its rebound and the hop.
 TEST_F(TcObstacle, IsLeftWithTheHopWhateverTheApproach) {
   rules.gravity = 0.8;
   place({1.0, 5.0, 8.0, 0.0, 0.0, 0.5, 0, ObstacleKind::wall});
@@ -76,7 +77,7 @@ TEST_F(TcObstacle, IsElasticShortlyAfterAContact) {
     EXPECT_EQ(impact.lost_energy, !held);
     EXPECT_EQ(a.last_contact, 0.0);
   }
-  // A disk that only passes by has no contact.
+  // A disk that only passes by makes no contact.
   ExactDisk passes = disk_at(5.0, 8.0, 1.0, 0.0);
   const WallImpact impact = meet_obstacle_at(rules, 0.0, 0, passes);
   EXPECT_FALSE(impact.happened);
@@ -84,7 +85,8 @@ TEST_F(TcObstacle, IsElasticShortlyAfterAContact) {
   EXPECT_EQ(passes.last_contact, -never);
 }
 
-// Rough ones of e = 1 lose energy along their surfaces alone; not where the TC model holds the disk.
+// Rough disks with e = 1 lose energy only along their surfaces, and not at all if the TC model makes the contact
+// elastic.
 TEST_F(TcObstacle, IsSmoothWhereItHoldsADisk) {
   const Surfaces surfaces{0.5, {0.5, 0.1}, {0.5, 0.1}};
   rules.surfaces = &surfaces;
@@ -101,7 +103,7 @@ TEST_F(TcObstacle, IsSmoothWhereItHoldsADisk) {
   }
 }
 
-// e = 1 - a v^(1/5), and v is a speed: whatever the size of the fixed disk is.
+// e = 1 - a v^(1/5), where v is the speed of approach; it does not depend on the size of the fixed disk.
 TEST_F(TcObstacle, HasTheRestitutionOfTheSpeedOfApproach) {
   RestitutionLaw law;
   law.viscosity = 0.25;
@@ -124,15 +126,17 @@ TEST_F(TcObstacle, HasALeastRebound) {
   EXPECT_NEAR(a.path.vy, 2.0 * least_rebound, 1e-27);
 }
 
-// In the frame of an inner wall that rises ever faster, as a sine before its turn: g + a presses disks on it.
+// An inner wall with an upward acceleration a, in the first quarter of a vibration: in its frame g + a presses disks to
+// it.
 TEST_F(TcObstacle, ThatAcceleratesIsLeftWithAHigherHop) {
   rules.gravity = {0.3, 0.8};
   WallMotion motion;
   motion.pace = {SideMotion::Kind::parabolas, 0.0, 0.0, 1.0, 4.0};
-  motion.along = {-0.15, -0.2};  // down at first, ever slower
+  motion.along = {-0.15, -0.2};  // downwards at first, and ever slower
   Obstacle wall = slope;
   wall.moves = true;
-  // n = (-3, 4) / 5 is turned to where gravity and the wall's acceleration press: both count along both axes.
+  // The normal n = (-3, 4) / 5 is oblique to gravity and to the wall's acceleration, so that components along both axes
+  // count.
   place(wall, motion);
   rules.box.move_walls(0.5);
   const WallPlace now = motion.at(rules.box.clock);
@@ -148,7 +152,7 @@ TEST_F(TcObstacle, ThatAcceleratesIsLeftWithAHigherHop) {
   EXPECT_NEAR(impact.impulse, 2.0 * hop, 1e-14);
   EXPECT_NEAR(impact.momentum.x, -0.6 * 2.0 * hop, 1e-14);
   EXPECT_NEAR(impact.momentum.y, 0.8 * 2.0 * hop, 1e-14);
-  // It does so for the half period of 2 at most, however long contacts are.
+  // The wall accelerates for half a period, 2, so a longer contact_time does not raise this part of the hop.
   rules.contact_time = 100.0;
   const double longer =
       0.25 * ((0.3 * -0.6 + 0.8 * 0.8) * 100.0 + (now.acceleration.x * -0.6 + now.acceleration.y * 0.8) * 2.0);
@@ -157,8 +161,8 @@ TEST_F(TcObstacle, ThatAcceleratesIsLeftWithAHigherHop) {
   EXPECT_NEAR(b.path.vy, now.velocity.y + 0.8 * longer, 1e-12);
 }
 
-// A fixed disk rubs what it hits by the speed that the hit changes, whatever the distance of the centres; it rubs
-// nothing that only hops off.
+// A disk that hits a fixed disk is subject to friction, by the change of its normal speed, whatever the distance of the
+// centres; one that only hops is not.
 TEST_F(TcObstacle, RubsWhatItHits) {
   const Surfaces surfaces{0.5, {0.5, 0.1}, {0.5, 0.1}};
   rules.surfaces = &surfaces;

@@ -1,4 +1,4 @@
-// Thermal sides: Maxwell's flux distribution, equipartition, the account of heat.
+// Thermal sides: Maxwell's flux distribution, equipartition, the balance of heat.
 #include "core/physics/thermal_side.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace {
 using test::energy_from_sides;
 using test::run_by_engine;
 
-// Kolmogorov and Smirnov, one sample in 10^5 deviates by more than 2.23 / sqrt(n).
+// The test of Kolmogorov and Smirnov: one sample in 10^5 deviates by more than 2.23 / sqrt(n).
 TEST(ThermalSide, DrawsMaxwellsFluxDistribution) {
   constexpr std::size_t n = 200'000;
   constexpr double scale = 1.7;
@@ -46,9 +46,10 @@ TEST(ThermalSide, DrawsMaxwellsFluxDistribution) {
   EXPECT_NEAR(product / n / (scale * scale), 0.0, 5.0 * std::sqrt(2.0) / root);
 }
 
-// The numbers of a draw, and those of a disk's next one, know nothing of each other: the means of products, and of
-// products of squares less the products of the means, are 0. In units of s, away^2 has mean 2 and variance 4, a normal
-// deviate's square 1 and 2, so the products deviate by sqrt(8 / n) and sqrt(2 2 / n) and less; five of them.
+// The numbers of a draw are independent of each other, and of those of a disk's next draw: the means of products are 0,
+// and those of products of squares equal the products of the means. In units of s, away^2 has mean 2 and variance 4,
+// the square of a normal deviate 1 and 2, so the products deviate by at most sqrt(8 / n) and sqrt(2 2 / n); the
+// tolerance is five times that.
 TEST(ThermalSide, DrawsTheNumbersApart) {
   constexpr DiskId n = 100'000;
   double along_away = 0.0, along_more = 0.0, more_away = 0.0, sign = 0.0, next_along = 0.0, next_away = 0.0;
@@ -72,7 +73,8 @@ TEST(ThermalSide, DrawsTheNumbersApart) {
   EXPECT_NEAR(next_away / n, 0.0, 5.0 * 4.0 / root);
 }
 
-// A rough side draws the spin: I w^2 = T n^2 with I = q m r^2, and gives the rotation what it has more than before.
+// A rough side draws the spin from I w^2 = T n^2 with I = q m r^2, and adds the change of rotational energy to its
+// account.
 TEST(ThermalSide, DrawsTheSpinByTheMomentOfInertia) {
   double spin = -2.0;
   const double given = spin_thermally(0.5, 3.0, 4.0, 0.25, 1.5, spin);
@@ -82,7 +84,7 @@ TEST(ThermalSide, DrawsTheSpinByTheMomentOfInertia) {
   EXPECT_DOUBLE_EQ(given, 0.5 * 3.0 * 1.5 * 1.5 - 0.5 * inertia * 4.0);
 }
 
-// A wall of each direction sends the disk back into the box.
+// A wall in each direction sends the disk back into the box.
 TEST(ThermalSide, SendsADiskInward) {
   for (const Side side : all_sides) {
     double vx = 0.0;
@@ -103,11 +105,11 @@ Scene gas(const std::string& method, double temperature, const std::string& phys
                      "gas", "");
 }
 
-// A gas that was too hot comes to the temperature of its walls, light disks and heavy ones alike; the energy that it
-// has is what it had and what the sides gave.
+// A gas that is too hot reaches the temperature of its walls, light and heavy disks alike; its energy is that of the
+// start plus what the sides gave.
 TEST(ThermalSide, BringsAGasToItsTemperature) {
   Scene scene = gas("exact", 2.0, "");
-  scene.run.t_end = 3000.0;  // so long that chance moves the means by a hundredth
+  scene.run.t_end = 3000.0;  // long enough that chance changes the means by only a hundredth
   const State start = initial_state(scene);
   double light = 0.0;
   double heavy = 0.0;
@@ -130,8 +132,8 @@ TEST(ThermalSide, BringsAGasToItsTemperature) {
   EXPECT_GT(end.counters.wall_collisions, 40'000U);
 }
 
-// The account of heat with gravity, and of every method: no energy comes from anywhere else. Stepping under gravity is
-// right to first order only.
+// The balance of heat under gravity, for every method: the sides are the only source of energy. Stepping under gravity
+// is accurate to first order only.
 TEST(ThermalSide, GivesTheEnergyThatIsGained) {
   for (const std::string method : {"exact", "pairwise", "rollback"}) {
     for (const std::string physics : {"", "gravity = 0.5"}) {

@@ -1,4 +1,4 @@
-// Thermal sides against theory: the flow of heat of a free molecular gas, and conduction.
+// Thermal sides compared with theory: the heat flow of a free molecular gas, and conduction.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,8 +18,8 @@ using test::run_by_engine;
 
 const std::string folder = CAROM_SOURCE_DIR "/scenes/";
 
-// Disks that meet walls only carry N (3 / 2) (T1 - T2) a round trip, whose mean duration is
-// L sqrt(pi m / 2) (T1^-1/2 + T2^-1/2).
+// Disks that meet only walls carry N (3 / 2) (T1 - T2) in each round trip, whose mean duration is L sqrt(pi m / 2)
+// (T1^-1/2 + T2^-1/2).
 TEST(ThermalSide, GivesTheHeatFlowOfAFreeMolecularGas) {
   const Scene scene = load_scene(folder + "knudsen_gap.toml", {{"run.t_end", "4000"}});
   const State end = run_by_engine(scene, initial_state(scene));
@@ -33,7 +33,7 @@ TEST(ThermalSide, GivesTheHeatFlowOfAFreeMolecularGas) {
   EXPECT_LT(end.counters.collisions * 50, end.counters.wall_collisions);
 }
 
-// Slabs along x: the mean temperature and density of each, over a run.
+// The mean temperature and density in slabs along x, over a run.
 struct Slabs {
   std::vector<double> energy, count;
   double width;
@@ -50,7 +50,7 @@ struct Slabs {
 };
 
 // Conductivity of hard disks by Enskog's theory (Gass 1971): that of the dilute gas, 2 sqrt(T / (pi m)) / d times
-// 1.0292 (third Sonine approximation), times b rho (1 / y + 3 / 2 + 0.8718 y), y = b rho chi, b = pi d^2 / 2.
+// 1.0292 (third Sonine approximation), times b rho (1 / y + 3 / 2 + 0.8718 y), with y = b rho chi, b = pi d^2 / 2.
 double conductivity(double temperature, double density, double diameter) {
   const double dilute = 1.0292 * 2.0 * std::sqrt(temperature / std::numbers::pi) / diameter;
   const double packing = 0.25 * std::numbers::pi * diameter * diameter * density;
@@ -59,8 +59,8 @@ double conductivity(double temperature, double density, double diameter) {
   return dilute * b * (1.0 / y + 1.5 + 0.8718 * y);
 }
 
-// The flow of heat is the conductivity times the slope of the temperature; at the walls the temperature jumps towards
-// the gas. Of runs an eighth as long the flows are a tenth apart.
+// The heat flow is the conductivity times the slope of the temperature; at the walls the temperature jumps towards that
+// of the gas. Runs an eighth as long give heat flows that differ by a tenth.
 TEST(ThermalSide, ConductsHeatAsEnskogsTheorySays) {
   const Scene scene = load_scene(folder + "heat_conduction.toml", {{"run.t_end", "12000"}});
   const double begin = 150.0;
@@ -79,7 +79,7 @@ TEST(ThermalSide, ConductsHeatAsEnskogsTheorySays) {
   const double out = (heat_before[1] - end.counters.side_energy[1]) / (end.time - from);
   EXPECT_NEAR(in / out, 1.0, 0.05);
   const double flow = 0.5 * (in + out) / scene.box.height;
-  // Away from the walls by four mean free paths and more.
+  // Only slabs at least four mean free paths away from the walls.
   const double slope = (slabs.temperature(2) + slabs.temperature(3) - slabs.temperature(8) - slabs.temperature(9)) /
                        (2.0 * 6.0 * slabs.width);
   double predicted = 0.0;
