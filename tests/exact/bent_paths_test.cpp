@@ -1,5 +1,6 @@
-// Does the prediction kernel see that a disk leaves its list on a bent path: under gravity, and in the frame that goes
-// with the flow of a sheared box; and that it does so round a periodic box, to another image of where it is listed?
+// Disks on bent paths, under gravity and in the frame of the flow in a sheared box: the prediction kernel must notice
+// if one leaves the surroundings for which its list is valid, and if it goes around a periodic box to another image of
+// its listed position.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,10 +15,10 @@ namespace carom {
 namespace {
 
 constexpr double radius = 0.3;
-constexpr double unit = 0x1p-29;  // of listed positions; length
+constexpr double unit = 0x1p-29;  // unit of listed positions; length
 constexpr double period = 8.0;
 
-// A disk that is thrown, and touches its only neighbour after a while. Where it is listed is near its path.
+// A disk in flight that touches its only neighbour after a while. Its listed position is near its path.
 struct Throw {
   std::vector<DiskRecord> record;
   ListRow row;
@@ -26,7 +27,7 @@ struct Throw {
   double down = 0.0, left = 0.0;
 };
 
-// In the frame in which it is listed, after a time s.
+// Its position after a time s, in the frame of listed positions.
 Vec2 place_after(const Throw& thrown, double s) {
   const PathSegment& p = thrown.record[0].path;
   const double x = p.x + (p.vx - 0.5 * thrown.left * s) * s;
@@ -43,7 +44,7 @@ Throw drawn_throw(test::Draws& draws, const Gravity& g, const FlowFrame& flow) {
   t.record.resize(2);
   PathSegment& own = t.record[0].path;
   own = {draws.in(0.0, 1.0), draws.in(3.0, 5.0), draws.in(3.0, 5.0), draws.in(-1.0, 1.0), draws.in(-1.0, 1.0)};
-  // It may rise far and be back by then.
+  // The disk may rise far and have come back by then.
   own.vx += g.left * draws.in(0.0, 0.6) * t.until;
   own.vy += g.down * draws.in(0.0, 0.6) * t.until;
   t.record[1].path = {own.start, own.x + t.until + 2.0 * radius, own.y, own.vx - 1.0, own.vy};
@@ -70,7 +71,7 @@ Throw drawn_throw(test::Draws& draws, const Gravity& g, const FlowFrame& flow) {
   return t;
 }
 
-// The largest squared distance on the way from where it is listed.
+// The largest squared distance from the listed position on the way.
 double farthest2(const Throw& t) {
   double farthest = 0.0;
   for (int k = 0; k <= 64; ++k) {
@@ -85,7 +86,8 @@ double farthest2(const Throw& t) {
 
 enum class Way { inside, round };
 
-// The kernel may think that a disk leaves its list that does not, but less often than it sees one stay.
+// The kernel may report that a disk leaves its list although it does not, but less often than it reports that one
+// stays.
 void expect_seen_on_the_whole_way(Bend bend, const std::vector<Throw>& throws, Way way = Way::inside) {
   for (const PredictionKernels& kernels :
        {choose_prediction_kernels(bend, false), prediction_kernels_baseline(bend, false)}) {
@@ -124,7 +126,7 @@ TEST(BentPaths, AreSeenToLeaveTheListUnderGravity) {
   }
 }
 
-// Half of them come back to another image, on which they end.
+// Half of the disks come to another image of where they started, and their paths end there.
 std::vector<Throw> throws_round_the_box(const Gravity& direction) {
   test::Draws draws(39);
   std::vector<Throw> throws;

@@ -1,4 +1,5 @@
-// The box cut into parts: about as many disks in each, halos as wide as they say, and which parts are round one.
+// The box cut into parts: about equal numbers of disks in each, halos of the width asked for, and the parts around a
+// part.
 #include "parallel/exact/box_cut.hpp"
 
 #include <gtest/gtest.h>
@@ -37,7 +38,7 @@ TEST(BoxCut, PartsHaveAboutAsManyDisks) {
     ASSERT_EQ(cut.parts(), 4U);
     std::vector<std::size_t> own(4, 0);
     for (std::size_t k = 0; k < d.size(); ++k) ++own[cut.part_at({d.x[k], d.y[k]})];
-    // Spread unevenly, but each has about as many.
+    // Disks are spread unevenly, but the parts have about equal numbers of them.
     for (const std::size_t count : own) EXPECT_NEAR(static_cast<double>(count), 3001.0 / 4.0, 20.0);
   }
 }
@@ -46,7 +47,7 @@ TEST(BoxCut, HasTheSameWorkOnBothSidesOfALine) {
   const Disks d = spread(4000, 40.0, 10.0);
   const BoxCut halves = cut_box(d, test::box_of(40.0, 10.0), {2, 1}, 1.0);
   EXPECT_NEAR(halves.x.high(0), 20.0, 0.1);
-  // Three times as much in the right half: two thirds of its disks have as much as the others.
+  // A disk in the right half takes three times as much work, so the right part gets two thirds of that half.
   const BoxCut weighted = cut_box(d, test::box_of(40.0, 10.0), {2, 1}, 1.0, {halves, {1.0, 3.0}});
   EXPECT_NEAR(weighted.x.high(0), 20.0 + 20.0 / 3.0, 0.2);
 }
@@ -56,7 +57,7 @@ TEST(BoxCut, HalosLieBehindTheEnds) {
   const double line = cut.x.high(0);
   EXPECT_EQ(parts_at(cut, {line + 2.9, 5.0}), (std::vector<std::size_t>{1, 0}));
   EXPECT_EQ(parts_at(cut, {line + 3.1, 5.0}), (std::vector<std::size_t>{1}));
-  EXPECT_EQ(parts_at(cut, {37.1, 5.0}), (std::vector<std::size_t>{1, 0})) << "round the box";
+  EXPECT_EQ(parts_at(cut, {37.1, 5.0}), (std::vector<std::size_t>{1, 0})) << "around the box";
   EXPECT_EQ(parts_at(cut, {36.9, 5.0}), (std::vector<std::size_t>{1}));
   EXPECT_EQ(parts_at(cut, {2.9, 5.0}), (std::vector<std::size_t>{0, 1}));
   EXPECT_EQ(parts_at(cut, {line - 2.9, 5.0}), (std::vector<std::size_t>{0, 1}));
@@ -70,7 +71,7 @@ TEST(BoxCut, AtACornerThreePartsHaveAGhost) {
   EXPECT_EQ(parts_at(cut, {x - 1.0, y - 1.0}), (std::vector<std::size_t>{0, 1, 3, 4}));
   const double middle = 0.5 * (cut.y.low(1) + cut.y.high(1));
   EXPECT_EQ(parts_at(cut, {x - 1.0, middle}), (std::vector<std::size_t>{3, 4}));
-  EXPECT_EQ(parts_at(cut, {1.0, 1.0}), (std::vector<std::size_t>{0, 2, 6, 8})) << "round the box";
+  EXPECT_EQ(parts_at(cut, {1.0, 1.0}), (std::vector<std::size_t>{0, 2, 6, 8})) << "around the box";
 }
 
 TEST(BoxCut, WallsHaveNoHalos) {
@@ -80,7 +81,7 @@ TEST(BoxCut, WallsHaveNoHalos) {
   const BoxCut five = cut_box(spread(3001, 40.0, 10.0), test::box_of(40.0, 10.0), {5, 1}, 3.0);
   EXPECT_EQ(parts_at(five, {five.x.low(2) + 1.0, 5.0}), (std::vector<std::size_t>{2, 1}));
   EXPECT_EQ(parts_at(five, {five.x.high(2) - 1.0, 5.0}), (std::vector<std::size_t>{2, 3}));
-  // Rounding may lead a disk out.
+  // By rounding a disk may be slightly outside the box.
   EXPECT_EQ(cut.part_at({-1e-12, -1e-12}), 0U);
   EXPECT_EQ(cut.part_at({10.0 + 1e-12, 40.0 + 1e-12}), 1U);
 }
@@ -107,7 +108,7 @@ TEST(BoxCut, NeighboursAreThoseAtSidesAndCorners) {
   EXPECT_EQ(neighbours_of(walls, 0), (std::vector<std::size_t>{1, 3, 4}));
   EXPECT_EQ(neighbours_of(walls, 4), (std::vector<std::size_t>{0, 1, 2, 3, 5, 6, 7, 8}));
   const BoxCut ring = cut_box(d, test::box_of(40.0, 40.0, test::Periodic::both), {2, 3}, 3.0);
-  EXPECT_EQ(neighbours_of(ring, 0), (std::vector<std::size_t>{1, 2, 3, 4, 5})) << "each once";
+  EXPECT_EQ(neighbours_of(ring, 0), (std::vector<std::size_t>{1, 2, 3, 4, 5})) << "each neighbour once";
   const PartNeighbours of_first = ring.ends_of(0).neighbours;
   EXPECT_EQ(of_first.bit_towards(1, 0), of_first.bit_towards(-1, 0));
   EXPECT_EQ(of_first.bit_towards(0, -1), of_first.bit_of(4));
@@ -123,12 +124,13 @@ TEST(BestPieces, HaveTheFewestGhosts) {
   EXPECT_EQ(pieces(2, square), std::pair(std::size_t{1}, std::size_t{2}));
   EXPECT_EQ(pieces(16, square), std::pair(std::size_t{4}, std::size_t{4}));
   EXPECT_EQ(pieces(16, test::box_of(4000.0, 100.0)), std::pair(std::size_t{16}, std::size_t{1}));
-  EXPECT_EQ(pieces(13, test::box_of(200.0, 100.0)), std::pair(std::size_t{1}, std::size_t{1})) << "no room";
+  EXPECT_EQ(pieces(13, test::box_of(200.0, 100.0)), std::pair(std::size_t{1}, std::size_t{1}))
+      << "no room for several pieces";
   EXPECT_NEAR(share_with_ghosts({4, 4}, square, 8.0), (1.0 + 64.0 / 1000.0) * (1.0 + 64.0 / 1000.0), 1e-12);
   EXPECT_EQ(share_with_ghosts({1, 1}, square, 8.0), 1.0);
 }
 
-// As visit_parts_at says, one disk after the other.
+// These are the parts given by visit_parts_at, disk by disk.
 TEST(DisksOfParts, AreThoseOwnedAndThoseOfHalos) {
   const Disks d = spread(5003, 40.0, 40.0);
   const BoxCut cut = cut_box(d, test::box_of(40.0, 40.0, test::Periodic::both), {3, 2}, 3.0);

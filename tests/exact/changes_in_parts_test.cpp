@@ -1,5 +1,5 @@
-// An engine whose windows are run in parts, between two steps: it finds the disks near a place, and a disk gets another
-// velocity.
+// Changes and searches between two steps in an engine that runs its windows in parts: it finds the disks near a place,
+// and gives a disk another velocity.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -58,7 +58,7 @@ TEST(ChangesInParts, AllNearAPlaceAreFoundAndFewOthers) {
   }
 }
 
-// A search that has all rows of a part and goes on beyond it, to rows that lie nearer to its first one round the box.
+// The search covers all rows of a part and beyond, up to rows that are closer to its first row around the box.
 TEST(ChangesInParts, AllAreFoundWhereTheSearchIsLargerThanAPart) {
   for (const std::string sides : {"periodic", "wall"}) {
     const Scene scene = gas_of(sides);
@@ -88,7 +88,7 @@ std::size_t place_of(const Disks& d, DiskId id) {
   return static_cast<std::size_t>(std::find(d.id.begin(), d.id.end(), id) - d.id.begin());
 }
 
-// Disks anywhere, many of them in the halo of the other part.
+// The disks are anywhere in the box, many of them in the halo of the other part.
 TEST(ChangesInParts, OtherVelocitiesHaveTheBitsOfOneQueue) {
   const Scene scene = gas_of("periodic");
   const auto one_queue = make_parallel_engine(scene, initial_state(scene), {1});
@@ -108,13 +108,13 @@ TEST(ChangesInParts, OtherVelocitiesHaveTheBitsOfOneQueue) {
         ASSERT_TRUE((*engine)->edit(edit));
       }
     }
-    // Nothing is made anew for it.
+    // Parts stay valid after a change of velocities.
     EXPECT_TRUE(in_parts->visit_near({1.0, 1.0}, 1.0, 1.0, [](std::size_t) {}));
   }
 }
 
-// Parts are void without one of their disks, or with one more, whatever is asked before the next window: a look round
-// finds all or is not to be had, and other changes come to the right disks.
+// Parts become invalid when a disk is added or removed. Whatever is asked before the next window, a search finds all
+// disks or is refused, and further changes are applied to the right disks.
 TEST(ChangesInParts, AreKnownNoMoreWhereADiskComesOrGoes) {
   for (const Edit::Kind kind : {Edit::Kind::add, Edit::Kind::remove}) {
     const Scene scene = gas_of("wall");
@@ -130,8 +130,8 @@ TEST(ChangesInParts, AreKnownNoMoreWhereADiskComesOrGoes) {
       one_queue->step();
       in_parts->step();
       ASSERT_EQ(state_hash(in_parts->state().disks), state_hash(one_queue->state().disks)) << "window " << window;
-      EXPECT_TRUE(in_parts->visit_near({1.0, 1.0}, 1.0, 1.0, [](std::size_t) {})) << "in parts";
-      // So small that it has room in the corner, whatever disk is there.
+      EXPECT_TRUE(in_parts->visit_near({1.0, 1.0}, 1.0, 1.0, [](std::size_t) {})) << "the window was not run in parts";
+      // This disk is so small that there is room for it in the corner.
       const Disk small{0.005 + 0.01 * window, 0.002, 0.0, 3.0, 0.001, 1.0, 6000U + static_cast<DiskId>(window)};
       change({kind, small, 0}, static_cast<DiskId>(100 * window));
       const Disks& d = in_parts->state().disks;

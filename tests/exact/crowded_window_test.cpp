@@ -1,5 +1,5 @@
-// Windows of the exact method that hold too many events: every one of them ends, both engines agree on the result, and
-// a run that can be stopped stops within one.
+// Windows of the exact method with too many events: each of them ends, both engines give the same result, and a run
+// that can be stopped stops within a window.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// Hash, time and counts at the end, or what stopped the run and the hash of the state that it kept.
+// The hash, time and counts at the end, or the error that ended the run and the hash of the state kept.
 std::string outcome_of(Engine& engine, const Scene& scene) {
   std::string end = "done";
   try {
@@ -34,7 +34,7 @@ std::string outcome_of(Engine& engine, const Scene& scene) {
          std::to_string(s.counters.wall_collisions);
 }
 
-// Of both engines, with and without regions; returns the reference's.
+// Compares both engines, with regions and without; returns the outcome of the reference.
 std::string outcome(const Scene& scene, const State& initial) {
   const std::string plain = outcome_of(*make_reference_exact(scene, initial), scene);
   EXPECT_EQ(outcome_of(*make_parallel_engine(scene, initial, {1}), scene), plain);
@@ -42,7 +42,7 @@ std::string outcome(const Scene& scene, const State& initial) {
   return plain;
 }
 
-// A light disk at rest between the left wall and a heavy one that comes in.
+// A light disk at rest between the left wall and a heavy disk that comes in.
 State light_and_heavy(double ratio) {
   return state_of({{5, 10, 0, 0, 1, ratio, 0}, {20, 10, -1, 0, 1, 1.0, 0}});
 }
@@ -54,7 +54,7 @@ Scene burst_scene() {
   return plain_scene(box, 30.0);
 }
 
-// Each bounce is lower than the one before; what stops the run is the same bounce.
+// Bounces get lower and lower, and both engines must stop at the same one.
 TEST(CrowdedWindow, BallsThatComeToRestStopBothEnginesAtTheSameBounce) {
   const std::string balls =
       "[[disks]]\ncount = 2\npositions = [[5, 5], [12, 8]]\nvelocities = [[0.125, 0], [0, 0]]\nradius = 0.5\nmass = "
@@ -68,14 +68,15 @@ TEST(CrowdedWindow, BallsThatComeToRestStopBothEnginesAtTheSameBounce) {
   }
 }
 
-// Each disk has hundreds of contacts that dissipate, some of them at the ends of windows; they are far apart in time,
-// and those of one window are not counted on in the next.
+// Each disk has hundreds of dissipating contacts, some of them at the ends of windows. They are far apart in time, and
+// the count of one window must not be continued in the next.
 TEST(CrowdedWindow, ContactsOfManyWindowsAreNoBurst) {
   const Scene scene = make_scene({6, 6, "wall", "restitution = 0.9999", random_disks(8, equal_disks), 600, ""});
   EXPECT_THAT(outcome(scene, initial_state(scene)), testing::StartsWith("done"));
 }
 
-// pi sqrt(M / m), as the collisions of 1 : 100^n count the digits of pi; half of them between the disks.
+// There are pi sqrt(M / m) collisions, as in the case of 1 : 100^n that counts the digits of pi; half of them are
+// between the disks.
 TEST(LongCrowdedWindow, FiniteBurstsAreCountedToTheEndByBothEngines) {
   for (const double ratio : {1e-8, 1e-10, 1e-12}) {
     const Scene scene = burst_scene();
@@ -90,7 +91,7 @@ TEST(LongCrowdedWindow, FiniteBurstsAreCountedToTheEndByBothEngines) {
   }
 }
 
-// The same burst beside walls that move but are not part of it, at the other end of the box.
+// The same burst, with moving walls at the other end of the box that take no part in it.
 TEST(LongCrowdedWindow, AFiniteBurstGoesOnWhereAWallMovesThatHasNoPartInIt) {
   const std::string burst =
       "[physics]\n[[disks]]\ncount = 2\npositions = [[5, 10], [20, 10]]\nvelocities = [[0, 0], [-1, 0]]\nradius = 1\n"
@@ -109,7 +110,7 @@ TEST(LongCrowdedWindow, AFiniteBurstGoesOnWhereAWallMovesThatHasNoPartInIt) {
   }
 }
 
-// A disk that bounces lower and lower on a plate that shakes as a sine is not short of room.
+// The message for a disk that comes to rest on a plate vibrating as a sine must not say that it lacks room.
 TEST(LongCrowdedWindow, ComingToRestOnASineIsCalledByItsName) {
   const std::string text =
       "[box]\nwidth = 10.0\nheight = 10.0\nwall_restitution = 0.5\n"
@@ -122,8 +123,8 @@ TEST(LongCrowdedWindow, ComingToRestOnASineIsCalledByItsName) {
                     HasSubstr("physics.collapse = {"), HasSubstr("or use run.method = \"pairwise\"")));
 }
 
-// The same burst where the walls lose energy but are not part of it: a heavy disk at rest is what the light one is
-// thrown against.
+// The same burst in a box whose walls lose energy but take no part in it: the light disk bounces between two heavy
+// ones.
 TEST(LongCrowdedWindow, AnElasticBurstIsNoCollapseWhereOtherContactsDissipate) {
   Scene scene = burst_scene();
   scene.box.restitutions.fill(0.5);
@@ -132,7 +133,8 @@ TEST(LongCrowdedWindow, AnElasticBurstIsNoCollapseWhereOtherContactsDissipate) {
   EXPECT_THAT(outcome(scene, initial), HasSubstr("done"));
 }
 
-// A burst in a corner of a gas, with regions: which event was too much is found without them.
+// A burst in the corner of a gas, with regions: they are given up to find the event at which the count became too
+// large.
 TEST(LongCrowdedWindow, ABurstAmongOthersInTiles) {
   const Scene scene =
       make_scene({30, 30, "wall", "",
@@ -187,7 +189,7 @@ TEST(CrowdedWindow, TouchingDisksThatFillTheBox) {
   }
 }
 
-// Gaps of the last bit: time goes on by 1e-16 an event.
+// The gaps are of the order of the last bit, so each event advances time by 1e-16.
 TEST(LongCrowdedWindow, HardlyAnyRoom) {
   Domain box;
   box.width = box.height = std::nextafter(2.0, 3.0);
@@ -195,7 +197,7 @@ TEST(LongCrowdedWindow, HardlyAnyRoom) {
               AllOf(HasSubstr("stands still"), HasSubstr("room to move"), Not(HasSubstr("collapse"))));
 }
 
-// Where contacts may lose energy it may be collapse as well: both are told.
+// If contacts may lose energy it may be a collapse as well, and the message says both.
 TEST(LongCrowdedWindow, HardlyAnyRoomWhereDisksMayComeToRest) {
   Domain box;
   box.width = box.height = std::nextafter(2.0, 3.0);
@@ -213,8 +215,8 @@ TEST(CrowdedWindow, AtRestOnAnElasticFloorIsNotCalledCollapse) {
               AllOf(HasSubstr("time stands still at t = 0"), HasSubstr("the bottom wall"), Not(HasSubstr("collapse"))));
 }
 
-// Likewise on a floor that moves, in its frame, and where it hops by so little that it is seen hopping for ever:
-// neither lacks room.
+// The same for a disk on a moving floor, at rest in the floor's frame or hopping so little that it would hop for ever:
+// the message must not say that room is lacking.
 TEST(CrowdedWindow, AtRestOnAFloorThatMovesIsCalledByItsName) {
   const auto resting = [](const std::string& y) {
     const std::string text =
@@ -248,7 +250,8 @@ Scene resting_pile(double contact_time) {
   return scene;
 }
 
-// What costs a dozen collisions a disk and contact time would take years: both engines say so after the same windows.
+// The run would take years, with a dozen collisions per disk in each contact time: both engines say so after the same
+// window.
 TEST(LongCrowdedWindow, APileWithATinyContactTimeSaysThatTimeHardlyAdvances) {
   const Scene scene = resting_pile(1e-10);
   EXPECT_THAT(outcome(scene, initial_state(scene)),
@@ -263,7 +266,8 @@ TEST(CrowdedWindow, AContactTimeBelowTheResolutionOfTime) {
   EXPECT_THAT(outcome(scene, initial), AllOf(HasSubstr("stands still"), HasSubstr("contact_time is too short")));
 }
 
-// A step that is given up leaves the state of its start, and a later one has the bits that it would have had.
+// A step that is given up leaves the state as it was at its start, and the next step has the bits that it would have
+// had.
 TEST(LongCrowdedWindow, AStepGivenUpChangesNoBit) {
   Scene scene = burst_scene();
   for (const bool parallel : {false, true}) {

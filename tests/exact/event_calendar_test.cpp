@@ -1,4 +1,4 @@
-// The event calendar: the first event of all disks, in order of time, ties as told, whatever their times are.
+// The event calendar: the first event of all disks in order of time, with the given order of ties, for any times.
 #include "parallel/exact/event_calendar.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ bool smaller_number(std::uint32_t a, std::uint32_t b) {
   return a < b;
 }
 
-// Most of them together, each third by itself.
+// Enters most disks together, and each third one separately.
 void enter_all(Entries& entries, EventCalendar& calendar, const std::vector<double>& time) {
   const auto is_alone = [](std::uint32_t k) { return k % 3 == 2; };
   for (std::uint32_t k = 0; k < time.size(); ++k) entries.entry[k].time = is_alone(k) ? 0.0 : time[k];
@@ -36,7 +36,7 @@ void enter_all(Entries& entries, EventCalendar& calendar, const std::vector<doub
   }
 }
 
-// How long after an event a disk's next one comes.
+// The time from one event of a disk to its next.
 struct Pattern {
   std::string name;
   std::function<double(test::Draws&)> wait;
@@ -51,7 +51,7 @@ const std::vector<Pattern> patterns = {
     {"some never", [](test::Draws& draws) { return draws.bits() % 50 == 0 ? never : draws.in(0.0, 0.5); }},
 };
 
-// Against a search through all disks.
+// The order is compared with a search through all disks.
 void expect_order(const Pattern& pattern, std::uint32_t disks, std::size_t expected, bool many) {
   test::Draws draws(disks + expected);
   constexpr double start = 0.5;
@@ -61,7 +61,7 @@ void expect_order(const Pattern& pattern, std::uint32_t disks, std::size_t expec
   calendar.begin(start, end, entries.all(), expected, many);
   std::vector<double> time(disks);
   for (std::uint32_t k = 0; k < disks; ++k) {
-    // Some before the start, which come first.
+    // Some events are before the start; they come first.
     time[k] = k % 10 == 0 ? draws.in(-1.0, start) : start + pattern.wait(draws);
   }
   enter_all(entries, calendar, time);
@@ -77,7 +77,7 @@ void expect_order(const Pattern& pattern, std::uint32_t disks, std::size_t expec
     ASSERT_EQ(calendar.time_of(found), time[found]);
     time[found] += pattern.wait(draws);
     calendar.move(found, time[found], smaller_number);
-    // Another disk's event moves too, as when a collision takes its partner away.
+    // The event of another disk moves, too, as it does when a collision changes the path of its partner.
     const auto other = static_cast<std::uint32_t>(draws.bits() % disks);
     time[other] = std::max(time[other], time[found]) + (draws.bits() % 2 == 0 ? 0.0 : pattern.wait(draws));
     calendar.move(other, time[other], smaller_number);
@@ -106,11 +106,13 @@ TEST(EventCalendar, HoldsTheLastMoment) {
   EXPECT_EQ(found, 0U);
   calendar.move(0, never, smaller_number);
   for (int k = 0; k < 2; ++k) {
-    EXPECT_FALSE(calendar.find_first(found, at, smaller_number, [](std::uint32_t, int) {})) << "asked again";
+    EXPECT_FALSE(calendar.find_first(found, at, smaller_number, [](std::uint32_t, int) {}))
+        << "there must be no event after the end";
   }
 }
 
-// More at the last moment than a page is searched for each time: a page without length cannot be made shorter.
+// More events at the last moment than a page may have before it is shortened: a page without length cannot be
+// shortened.
 TEST(EventCalendar, HoldsManyAtTheLastMoment) {
   constexpr std::uint32_t disks = 200;
   Entries entries(disks);
@@ -127,8 +129,8 @@ TEST(EventCalendar, HoldsManyAtTheLastMoment) {
   EXPECT_FALSE(calendar.find_first(found, at, smaller_number, [](std::uint32_t, int) {}));
 }
 
-// Whether it came to the end of the events before or not: it finds and announces the disks that it has now, as the
-// others may be gone.
+// Whether or not all earlier events were processed, after begin() the calendar contains and announces only the disks
+// entered since, as the others may not exist any more.
 TEST(EventCalendar, BegunAgainHasOtherDisksAlone) {
   for (const int events : {300, 2000}) {
     Entries entries(2000);
@@ -155,7 +157,7 @@ TEST(EventCalendar, BegunAgainHasOtherDisksAlone) {
   }
 }
 
-// Disks that are taken out have no event until they are moved in again, some of them to a time that has passed.
+// Disks taken out have no event until they are moved in again, some of them to a time that has passed.
 TEST(EventCalendar, ForgetsDisksThatAreOut) {
   for (const bool many : {false, true}) {
     test::Draws draws(7);
@@ -198,7 +200,7 @@ TEST(EventCalendar, ForgetsDisksThatAreOut) {
   }
 }
 
-// How many of the disks are announced before their events, at every stage in turn. expected: as the calendar's.
+// The number of disks announced at all stages, in order, before their events. expected: as in EventCalendar::begin().
 std::uint32_t announced_in_time(const std::vector<double>& time, std::size_t expected) {
   const auto disks = static_cast<std::uint32_t>(time.size());
   Entries entries(disks);
@@ -225,8 +227,8 @@ TEST(EventCalendar, AnnouncesWhatComesSoon) {
   EXPECT_GT(announced_in_time(time, time.size()), 1800U);
 }
 
-// Times are drawn, two disks at each, as the two of a collision, and a page has one disk in the mean: a quarter of the
-// disks lie behind the second of their page. That one stage or another comes too late happens where pages are empty.
+// Times are random, and two disks have each of them, as in a collision. A page has one disk on average, so a quarter of
+// the disks are behind the second one of their page. Disks may be announced too late only where pages are empty.
 TEST(EventCalendar, AnnouncesAllDisksOfAPage) {
   test::Draws draws(11);
   std::vector<double> time(20000);

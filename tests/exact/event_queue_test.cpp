@@ -1,4 +1,4 @@
-// The event queue: whatever is pushed when, all of it comes out, once, in order of time, ties by ids.
+// The event queue: every event pushed, at any time, is popped once, in order of time, with ties in order of ids.
 #include "parallel/exact/event_queue.hpp"
 
 #include <gtest/gtest.h>
@@ -22,11 +22,11 @@ Fields fields_of(const QueuedEvent& e) {
   return {e.time, e.id1, e.id2};
 }
 
-// Events on a page that is not yet turned get their ids when it is: here from a list, by disk.
+// Events on a later page get their ids when that page is turned to; here the ids are taken from a list, by disk.
 std::vector<QueuedEvent> random_events(test::Draws& draws, std::uint32_t count) {
   std::vector<QueuedEvent> events(count);
   for (std::uint32_t k = 0; k < count; ++k) {
-    // Coarse times, so that many are equal; some before the start and after the end.
+    // Times are coarse, so that many are equal; some are before the start or after the end.
     const double time = std::floor(draws.in(-2.0, 12.0) * 8.0) / 8.0;
     events[k] = {time, static_cast<DiskId>(draws.bits() % 7), static_cast<DiskId>(7 + draws.bits() % 9), k};
   }
@@ -55,7 +55,7 @@ TEST(EventQueue, GivesBackWhatWasPushedInCanonicalOrder) {
   }
 }
 
-// As in a run: every event pushes another one, at its own time or later.
+// As in a run, every event pushes another one, at its own time or later.
 TEST(EventQueue, TakesEventsWhileItGivesBack) {
   test::Draws draws(4);
   EventQueue queue;

@@ -1,5 +1,6 @@
-// The reference's bits, after windows and within them, where few scenes have the chance to lose them: events at the
-// same moment, disks on a side at the end of a window, falls through lists that are built anew, rough disks that spin.
+// The parallel engine has the bits of the reference after windows and within them, in cases that few scenes have:
+// events at the same moment, disks on a side at the end of a window, falls while lists are rebuilt, spinning rough
+// disks.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -13,14 +14,14 @@
 namespace carom::exact_tests {
 namespace {
 
-// The time of a frame, how many disks it has, and their hash.
+// The time of a frame, its number of disks, and their hash.
 std::string frame_at(const Engine& engine, double t) {
   Disks then;
   const double time = engine.disks_at(t, then);
   return fmt::format("{}: {}, {}", time, then.size(), hash_text(state_hash(then)));
 }
 
-// After each window, and of frames within it; returns the last state.
+// Compares the states after each window and frames within it; returns the last state.
 State expect_bits_of_reference(const Scene& scene, const State& start) {
   const auto reference = make_reference_exact(scene, start);
   const auto engine = make_parallel_engine(scene, start, {1});
@@ -42,9 +43,9 @@ State expect_bits_of_reference(const Scene& scene, const State& start) {
   return reference->state();
 }
 
-// A disk at rest is hit from the left and from the right at the same moment, again and again, and what comes of it
-// depends on who is first: the pair with the smallest ids, wherever disks are stored. The lowest row falls onto the
-// floor at that moment, too.
+// A disk at rest is hit from the left and from the right at the same moment, again and again. The result depends on the
+// order, and the pair with the smallest ids comes first, wherever disks are stored. The lowest row falls onto the floor
+// at that moment, too.
 TEST(ExactBits, OfContactsAtTheSameMoment) {
   constexpr int rows = 12, columns = 4, all = 3 * rows * columns;
   const Scene scene = plain_scene(test::box_of(64.0, 48.0), 8.0, 0.0, 0.5);
@@ -60,7 +61,8 @@ TEST(ExactBits, OfContactsAtTheSameMoment) {
   EXPECT_GE(end.counters.wall_collisions, 3U * columns);
 }
 
-// One that has just been hit comes to two at rest at the same moment: it alone knows of both contacts.
+// A disk that has just collided reaches two disks at rest at the same moment: both contacts are found from its path
+// only.
 TEST(ExactBits, OfOneThatHitsTwoAtTheSameMoment) {
   constexpr int rows = 12, columns = 4, all = 4 * rows * columns;
   const Scene scene = plain_scene(test::box_of(64.0, 48.0), 12.0, 0.0, 0.5);
@@ -75,8 +77,8 @@ TEST(ExactBits, OfOneThatHitsTwoAtTheSameMoment) {
   EXPECT_GE(end.counters.collisions, 3U * rows * columns);
 }
 
-// A disk between a wall and a fixed one, neither of which it leaves: it comes to both at one moment again and again.
-// The fixed one is first, though the wall bounds for how long it is looked for.
+// A disk between a wall and a fixed disk, both without rebound, touches both at the same moment again and again. The
+// fixed disk comes first, although the search for it ends at the time of the wall.
 TEST(ExactBits, OfAFixedDiskAndAWallAtTheSameMoment) {
   const Scene scene = parse_scene(R"([box]
 width = 12
@@ -105,7 +107,7 @@ t_end = 0.5
   const State start = initial_state(scene);
   const auto reference = make_reference_exact(scene, start);
   reference->step();
-  EXPECT_LT(reference->state().time, 0.2) << "the window was not crowded";
+  EXPECT_LT(reference->state().time, 0.2) << "the window was not cut short by too many events";
   for (const int threads : {1, 3}) {
     const auto engine = make_parallel_engine(scene, start, {threads, 128});
     engine->step();
@@ -113,8 +115,8 @@ t_end = 0.5
   }
 }
 
-// Where a wall turns that vibrates as a sine, a row of touching disks comes to it at the window's end: the first meets
-// it twice, the second time within rounding of the end.
+// The wall vibrates as a sine. At its turning point, at the window's end, a row of touching disks reaches it: the first
+// disk meets it twice, the second time within rounding of the end.
 TEST(ExactBits, OfContactsWithASineAtTheEndOfAWindow) {
   const Scene scene = parse_scene(R"([box]
 width = 16
@@ -138,8 +140,8 @@ t_end = 1
   EXPECT_EQ(end.counters.collisions, 3U);
 }
 
-// Disks of a dilute gas fly further than across a list, and lists are built anew while it is known when disks come to
-// their next events: in some windows one leaves the place where it is listed before that.
+// Disks of a dilute gas fly further than their lists reach, and lists are rebuilt while next events are known: in some
+// windows a disk leaves the surroundings of its listed position before its event.
 TEST(ExactBits, OfAFallThroughListsThatAreBuiltAnew) {
   Scene scene = make_scene({31.22, 6.24, "left = \"periodic\"\nright = \"periodic\"", "gravity = 0.05",
                             "[[disks]]\ncount = 80\npositions = \"random\"\nvelocities = { maxwell = 1.0 }\n"
@@ -150,7 +152,7 @@ TEST(ExactBits, OfAFallThroughListsThatAreBuiltAnew) {
   EXPECT_GT(end.counters.collisions, 200U);
 }
 
-// Between two collisions of a window, and before the first.
+// Spins between two collisions of a window, and before the first one.
 TEST(ExactBits, OfTheSpinOfRoughDisks) {
   const std::string rough = "roughness = { tangential_restitution = 0.4, friction = 0.5 }";
   for (const int count : {20, 80}) {
@@ -164,7 +166,7 @@ TEST(ExactBits, OfTheSpinOfRoughDisks) {
   }
 }
 
-// Through the top of a box that shears, and what is still on its way.
+// Frames with disks that have crossed the top of a sheared box, and with disks still on their way.
 TEST(ExactBits, OfFramesOfAShear) {
   const Scene scene = make_scene(
       {20, 16, "left = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\nshear_rate = 0.3",
@@ -174,8 +176,8 @@ TEST(ExactBits, OfFramesOfAShear) {
   EXPECT_GT(end.counters.collisions, 20U);
 }
 
-// Where disks nearly go with the flow, lists are strained and built anew long before a disk leaves its place in them,
-// and the images above go round a narrow box again and again meanwhile.
+// If disks move nearly with the flow, lists are strained and rebuilt long before a disk leaves its listed position, and
+// meanwhile the images above go around a narrow box many times.
 TEST(ExactBits, OfAShearWhoseListsAreStrainedAgainAndAgain) {
   for (const double width : {12.0, 60.0}) {
     const Scene scene = make_scene({width, 18,
@@ -190,11 +192,11 @@ TEST(ExactBits, OfAShearWhoseListsAreStrainedAgainAndAgain) {
   }
 }
 
-// In the last window a disk comes to a periodic side to the last bit: it is at 0, not at the box's width.
+// In the last window a disk comes exactly to a periodic side: its coordinate must be 0, not the box's width.
 TEST(ExactBits, OfADiskOnAPeriodicSideAtTheEnd) {
   const Domain box = test::box_of(16.0, 8.0, test::Periodic::both);
   std::vector<Disk> list{{12.0, 4.0, 2.0, 0.0, 0.25, 1.0}, {4.0, 6.0, 0.0, 1.0, 0.25, 1.0}};
-  for (const std::size_t more : {0U, 48U}) {  // with more of them there are lists
+  for (const std::size_t more : {0U, 48U}) {  // with more disks there are lists
     for (std::size_t k = 0; k < more; ++k)
       list.push_back({0.5 + 0.3125 * static_cast<double>(k), 1.0, 0.0, 0.0, 0.1, 1.0});
     const Scene scene = plain_scene(box, 2.0);
@@ -217,7 +219,8 @@ TEST(ExactBits, OfFramesWhileDisksLeave) {
   EXPECT_GT(expect_bits_of_reference(scene, initial_state(scene)).counters.removed, 0U);
 }
 
-// Each combination of what an engine remembers of disks beside their paths: reflections by thermal sides, contacts.
+// All combinations of what an engine keeps of disks besides their paths: numbers of reflections by thermal sides, times
+// of contacts.
 TEST(ExactBits, WithMemoryOfContacts) {
   const std::string tc = "restitution = 0.8\ncollapse = { model = \"tc\", contact_time = 0.001 }";
   for (const std::string& sides : {std::string("wall"), hot}) {
@@ -229,7 +232,7 @@ TEST(ExactBits, WithMemoryOfContacts) {
   }
 }
 
-// What a frame is read from when nothing has happened yet is the state at the window's start.
+// Before the first event a frame is the state at the window's start.
 TEST(ExactBits, OfAFrameAtTheStart) {
   const Scene scene = make_scene({20, 20, hot, "", random_disks(100, equal_disks), 2.0, ""});
   const State initial = initial_state(scene);

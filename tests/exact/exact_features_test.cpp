@@ -1,5 +1,5 @@
-// What the exact method does besides elastic collisions: scaling, windows, frames, sinks, sources, Brownian motion, the
-// TC model, inelastic collapse, and hostile input.
+// Features of the exact method beyond elastic collisions: scaling, windows, frames, sinks, sources, Brownian motion,
+// the TC model, inelastic collapse, and hostile input.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 const std::string gas =
     "[[disks]]\ncount = 60\npositions = \"random\"\nvelocities = { maxwell = 1.0 }\nradius = 0.5\nmass = 1.0\n";
 
-// Lengths, times and masses in other units, by powers of two: every bit follows.
+// Other units of length, time and mass, in powers of two: every bit must correspond.
 struct Units {
   double length, time, mass;
 };
@@ -107,7 +107,7 @@ TEST(ExactFrames, FramesChangeNothingAndLieOnThePath) {
       EXPECT_EQ(watched->disks_at(t, frame), t);
       EXPECT_EQ(max_overlap(frame, box), 0.0);
       EXPECT_LT(wall_overlap(frame, box), 1e-13);
-      // The path is continuous: a moment later each disk is where its velocity carries it.
+      // Paths are continuous: shortly afterwards each disk is where its velocity carries it.
       const double dt = 1e-6;
       watched->disks_at(t + dt, late);
       for (std::size_t i = 0; i < 2; ++i)
@@ -118,7 +118,8 @@ TEST(ExactFrames, FramesChangeNothingAndLieOnThePath) {
   EXPECT_GT(quiet->state().counters.collisions, 2U);
 }
 
-// Paths of earlier windows are not kept: an earlier time gets the disks at the start of the last window, and that time.
+// Paths of earlier windows are not kept: for an earlier time one gets the disks at the start of the last window, and
+// that time.
 TEST(ExactFrames, BeforeTheLastWindowAreOfItsStart) {
   const Scene scene = make_scene({12, 12, "periodic", "", gas, 30.0, ""});
   const State initial = initial_state(scene);
@@ -139,7 +140,7 @@ TEST(ExactSinks, TakeADiskAtItsContact) {
   box.width = box.height = 10.0;
   box.sides.fill(SideKind::sink);
   const Scene scene = plain_scene(box, 20.0);
-  // Disk 1 would be hit by disk 0 beyond the side, had that not gone at t = 4.5.
+  // Disk 0 would hit disk 1 beyond the side, but it leaves at t = 4.5.
   const State initial = state_of({{5, 5, 1, 0, 0.5, 1, 0}, {8, 9.0, 0.0, -0.7, 0.5, 1, 0}, {2, 2, 0, 0, 0.5, 1, 0}});
   const auto engine = make_reference_exact(scene, initial);
   Disks frame;
@@ -177,7 +178,7 @@ TEST(ExactSources, EmitAtTheirTimesNeverIntoOthers) {
     EXPECT_LE(engine->state().counters.emitted, due);
   }
   const Counters& c = engine->state().counters;
-  EXPECT_EQ(c.emitted + c.waiting, 47U);  // the 48th is due at t_end itself
+  EXPECT_EQ(c.emitted + c.waiting, 47U);  // the 48th disk is due at t_end itself
   EXPECT_EQ(engine->state().disks.size(), c.emitted - c.removed);
   EXPECT_GT(c.removed, 0U);
 }
@@ -199,8 +200,8 @@ TEST(ExactBrownian, FreeDisksSpreadAsFourDT) {
   EXPECT_NEAR(sum / 2000.0, expected, 3.0 * expected / std::sqrt(2000.0));
 }
 
-// In an interval disks fly as a gas of kT / m = 2 D / dt does, from places that are those of equilibrium whatever dt
-// is.
+// In each interval disks fly like a gas with kT / m = 2 D / dt, from positions that are those of equilibrium for any
+// dt.
 TEST(ExactBrownian, CollisionsGrowAsOneOverTheRootOfDt) {
   constexpr double z = 2.06326, side = 28.025;  // docs/reference_values.md, packing fraction 0.3
   const std::string disks = "[[disks]]\ncount = 300\npositions = \"random\"\nradius = 0.5\nmass = 1.0\n";
@@ -218,7 +219,7 @@ TEST(ExactBrownian, CollisionsGrowAsOneOverTheRootOfDt) {
 }
 
 TEST(ExactCollapse, IsReportedAndTheStateBeforeIsKept) {
-  // Three on a line collapse below e = 7 - 4 sqrt(3).
+  // Three disks in a row collapse for e below 7 - 4 sqrt(3).
   Domain box;
   box.width = 40.0;
   box.height = 10.0;
@@ -228,7 +229,7 @@ TEST(ExactCollapse, IsReportedAndTheStateBeforeIsKept) {
     const auto engine = parallel ? make_parallel_engine(scene, initial, {1, 1}) : make_reference_exact(scene, initial);
     try {
       run_to_end(*engine, scene);
-      FAIL() << "no collapse seen";
+      FAIL() << "no collapse was reported";
     } catch (const PhysicsError& e) {
       const std::string what = e.what();
       EXPECT_NE(what.find("inelastic collapse at t = "), std::string::npos) << what;
@@ -238,9 +239,9 @@ TEST(ExactCollapse, IsReportedAndTheStateBeforeIsKept) {
     EXPECT_EQ(engine->state().disks.size(), 3U);
     EXPECT_EQ(max_overlap(engine->state().disks, box), 0.0);
   }
-  // Above it they do not.
+  // Above this value they do not collapse.
   EXPECT_NO_THROW(run_reference(plain_scene(box, 100.0, 0.0, 0.08), initial));
-  // With the TC model they go on, and part.
+  // With the TC model the disks go on and separate.
   Scene tc = plain_scene(box, 100.0, 0.0, 0.05);
   tc.physics.collapse_contact_time = 1e-6;
   const State after = run_reference(tc, initial);
@@ -255,11 +256,11 @@ TEST(ExactCollapse, TcLeavesRareCollisionsAlone) {
   scene.physics.collapse_contact_time = 0.0;
   EXPECT_EQ(state_hash(run_reference(scene, initial).disks), state_hash(without.disks));
   scene.physics.collapse_contact_time = 1e9;
-  // Only each disk's first collision dissipates.
+  // Only the first collision of each disk dissipates.
   EXPECT_GT(energy_of(run_reference(scene, initial).disks, 0.0).kinetic, energy_of(without.disks, 0.0).kinetic);
 }
 
-// Bad input: the right answer or one clear line, never a hang.
+// Bad input must give the right answer or one clear line, and never hang.
 TEST(ExactHostile, NothingMovesNoDisksNoTime) {
   Domain box;
   box.width = box.height = 10.0;
@@ -315,7 +316,7 @@ TEST(ExactHostile, ADiskAtRestOnTheFloor) {
   Scene scene = plain_scene(box, 1.0, 1.0);
   EXPECT_THROW(run_reference(scene, initial), PhysicsError);
   scene.physics.collapse_contact_time = 0.01;
-  EXPECT_THROW(run_reference(scene, initial), PhysicsError) << "nothing dissipates, so there is no TC model";
+  EXPECT_THROW(run_reference(scene, initial), PhysicsError) << "nothing dissipates, so the TC model must not act";
   scene.box.restitutions.fill(0.5);
   const State s = run_reference(scene, initial);
   EXPECT_EQ(s.time, 1.0);
@@ -332,7 +333,8 @@ TEST(ExactHostile, TimeTooFineToAdvance) {
   EXPECT_THROW(run_reference(plain_scene(box, 2e12), late), PhysicsError);
 }
 
-// With e = 0 two disks meet once and part, whatever rounding leaves of their approach: in these it was an approach.
+// With e = 0 two disks meet once and then separate, whatever rounding leaves of their relative velocity; in these cases
+// it left an approach.
 TEST(ExactCollapse, IsNotWhereTwoThatStickMeetOnce) {
   const std::string group = "[[disks]]\nname = \"a\"\ncount = 2\nradius = [0.5, 1.0]\nmass = 1.0\n";
   for (const std::string& disks :
@@ -353,7 +355,7 @@ TEST(ExactCollapse, IsNotWhereTwoThatStickMeetOnce) {
   }
 }
 
-// Disks that fill the box exactly: a square lattice, all touching, some moving.
+// Disks that fill the box exactly: a square lattice in which all touch and some move.
 TEST(ExactHostile, FullBox) {
   Domain box;
   box.width = box.height = 8.0;

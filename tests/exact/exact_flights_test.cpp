@@ -1,5 +1,5 @@
-// Flights between which radii grow: an engine that keeps its neighbour lists flies as one made anew does, bit for bit,
-// and its lists tell each disk of all those that it may grow against.
+// Flights between which radii grow: an engine that keeps its neighbour lists has the same bits as a new engine, and its
+// lists contain, for each disk, all disks against which it may grow.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ constexpr const char* equal = "count = 900\nradius = 0.3";
 constexpr const char* mixed = "count = 700\nradius = { uniform = [0.15, 0.5] }";
 constexpr const char* few = "count = 30\nradius = { uniform = [0.5, 1.5] }";
 
-// Parts of small boxes have narrow halos.
+// Small boxes, so the parts have narrow halos.
 const std::vector<Case>& cases() {
   static const std::vector<Case> all{{"equal", periodic, equal},
                                      {"mixed", "", mixed},
@@ -56,7 +56,7 @@ std::vector<double> targets(const State& state, double share) {
   return target;
 }
 
-// A radius for each disk, as growths have them.
+// Each disk has a radius of its own, as growth needs.
 State start_of(const Scene& scene) {
   State state = initial_state(scene);
   Disks& d = state.disks;
@@ -84,7 +84,7 @@ void expect_all_near(const ExactFlights& flights, const Disks& d, const Domain& 
   }
 }
 
-// All radii are to become as many times as large. Returns after how many of the flights the lists told.
+// The target of all radii is `share` times their start. Returns the number of flights whose lists were complete.
 int fly(const Case& c, int count, double share) {
   Scene scene = scene_of(c);
   State state = start_of(scene);
@@ -126,8 +126,8 @@ TEST(ExactFlights, KeepTheirListsAndFlyAsFreshOnes) {
   }
 }
 
-// A giant among so many disks that they have regions, in which disks at borders are relisted late: their lists do not
-// tell.
+// A giant among so many disks that regions are used. In regions disks at borders are relisted late, so lists are not
+// complete.
 TEST(ExactFlights, DoNotTellOfRegions) {
   Case c{"regions", periodic,
          "count = 1\nradius = 3\npositions = \"random\"\nmass = 1\n[[disks]]\ncount = 8400\nradius = 0.1", 2, 200};

@@ -1,4 +1,4 @@
-// The exact method on cases whose answer is known in closed form.
+// The exact method compared with closed forms.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,13 +19,14 @@ TEST(ExactGolden, TwoDisksOfMassOneAndThree) {
   EXPECT_NEAR(s.disks.vy[0], 0.75 * root, 1e-14);
   EXPECT_NEAR(s.disks.vx[1], 0.375, 1e-14);
   EXPECT_NEAR(s.disks.vy[1], -0.25 * root, 1e-14);
-  // They touch with centres root apart along x, at t = 3 - root.
+  // The disks touch when their centres are `root` apart along x, at t = 3 - root.
   const double after = 5.0 - (3.0 - root);
   EXPECT_NEAR(s.disks.x[0], 8.0 - root - 0.125 * after, 1e-13);
   EXPECT_NEAR(s.disks.y[1], 10.0 - 0.25 * root * after, 1e-13);
 }
 
-// A wall, a light disk, a heavy one coming in: the collisions count the digits of pi (Galperin 2003).
+// A wall, a light disk at rest, and a heavy disk coming in: the number of collisions has the digits of pi (Galperin
+// 2003).
 TEST(ExactGolden, CollisionsThatCountPi) {
   const Count digits[] = {3, 31, 314, 3141};
   double ratio = 1.0;
@@ -49,7 +50,7 @@ TEST(ExactGolden, CradleOfTouchingDisks) {
   EXPECT_EQ(s.disks.x[5], 14.0);
 }
 
-// Two at once push two out: velocities are passed on one by one.
+// Two disks come in, and two go out: velocities are passed on one by one.
 TEST(ExactGolden, CradleStruckByTwo) {
   std::vector<Disk> disks{{5, 5, 1, 0, 0.5, 1, 0}, {6, 5, 1, 0, 0.5, 1, 0}};
   for (int k = 0; k < 3; ++k) disks.push_back({8.0 + k, 5, 0, 0, 0.5, 1, 0});
@@ -58,7 +59,8 @@ TEST(ExactGolden, CradleStruckByTwo) {
   for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(s.disks.vx[k], expected[k]) << k;
 }
 
-// Equal disks in a row are hard rods: the k-th is at the k-th of the sorted free paths between the shrunk walls.
+// Equal disks in a row are hard rods: the k-th disk is at the k-th of the sorted free paths between walls moved
+// inwards.
 TEST(ExactGolden, HardRodsFollowSortedFreePaths) {
   constexpr std::size_t n = 20;
   constexpr double length = 60.0;
@@ -88,8 +90,8 @@ TEST(ExactGolden, HardRodsFollowSortedFreePaths) {
   }
 }
 
-// Dropped from height h it comes to rest at sqrt(2 h / g) (1 + e) / (1 - e): the collapse is reported just there, and
-// the last good state is shortly before.
+// Dropped from height h the disk comes to rest at sqrt(2 h / g) (1 + e) / (1 - e): the collapse is reported at that
+// time, and the last good state is shortly before.
 TEST(ExactGolden, BouncingBallRestsInTime) {
   for (const double e : {0.5, 0.8}) {
     Domain box = test::box_of(10, 10);
@@ -112,11 +114,11 @@ TEST(ExactGolden, BouncingBallRestsInTime) {
   }
 }
 
-// A few bounces before that, each leaves with e times the speed it came with.
+// A few bounces earlier each bounce leaves with e times its incoming speed.
 TEST(ExactGolden, BouncingBallKeepsItsParabolas) {
   Domain box = test::box_of(10, 100);
   box.restitutions.fill(0.5);
-  // Down in 1, then flights of 1, 1/2, 1/4; 0.1 into the next.
+  // The fall takes 1, and the flights after it 1, 1/2, 1/4; the time is 0.1 after the start of the next one.
   const State s = run_reference(plain_scene(box, 2.85, 8.0), state_of({{5, 5, 0, 0, 1, 1, 0}}));
   EXPECT_EQ(s.counters.wall_collisions, 4U);
   EXPECT_NEAR(s.disks.vy[0], 0.5 - 0.8, 1e-12);
@@ -145,7 +147,8 @@ TEST(ExactGolden, TimeReversalComesBack) {
   }
 }
 
-// Floor minus ceiling force is the weight: over a time T the impulses differ by N m g T and the change of momentum.
+// The floor's force minus the ceiling's is the weight: over a time T the impulses differ by N m g T and the change of
+// momentum.
 TEST(ExactGolden, FloorMinusCeilingIsTheWeight) {
   const Scene scene = make_scene(
       {12, 12, "wall", "gravity = 0.7",
@@ -162,7 +165,7 @@ TEST(ExactGolden, FloorMinusCeilingIsTheWeight) {
               momentum_of(s.disks).x - momentum_of(initial.disks).x, 1e-9);
 }
 
-// The virial counts |impulse| (r1 + r2): two disks that meet head on.
+// The virial counts |impulse| (r1 + r2); here two disks meet head-on.
 TEST(ExactGolden, VirialOfOneCollision) {
   const State s = run_reference(plain_scene(test::box_of(20, 20), 4.0),
                                 state_of({{5, 10, 1, 0, 0.5, 1, 0}, {9, 10, -1, 0, 1.0, 3, 0}}));

@@ -1,5 +1,4 @@
-// How much memory the exact engine takes for a disk: this program adds up all that is allocated, its own and the
-// engine's.
+// The memory that the exact engine takes for each disk: this program counts all allocations, its own and the engine's.
 #include <gtest/gtest.h>
 #include <malloc.h>
 
@@ -38,7 +37,7 @@ void uncount(void* memory) {
 
 }  // namespace
 
-// The other forms end in these; see warm_step_allocation_test.
+// The other forms of operator new call these; see warm_step_allocation_test.
 [[gnu::noinline]] void* operator new(std::size_t bytes) {
   return counted(bytes, alignof(std::max_align_t));
 }
@@ -61,7 +60,7 @@ void uncount(void* memory) {
 namespace carom {
 namespace {
 
-constexpr long disks = 80'000;  // enough for regions, and for giving back what is not needed all the time
+constexpr long disks = 80'000;  // enough for regions, and for freeing memory that is not needed all the time
 
 double most_bytes_a_disk(int threads) {
   const Scene scene = parse_scene(
@@ -80,9 +79,9 @@ double most_bytes_a_disk(int threads) {
   return static_cast<double>(most - before) / static_cast<double>(disks);
 }
 
-// Of two parts with halos, where so much is the least of one queue. Halos are 8 mean spacings wide, two of each part;
-// their disks are there twice, but for the state's 36 bytes. Each disk has two places (4 bytes each), an id (4) and a
-// coordinate (8) of its part besides, and there is room for one more in 32.
+// The memory with two parts and halos, if one queue takes `least`. Halos are 8 mean spacings wide, two for each part;
+// their disks are stored twice, except the state's 36 bytes. Each disk also has two places (4 bytes each), an id (4)
+// and a coordinate (8) in its part, and vectors have room for one more disk in 32.
 double in_two_parts(double least) {
   constexpr double state = 36.0;
   constexpr double of_parts = 20.0;
@@ -90,7 +89,7 @@ double in_two_parts(double least) {
   return state + (least - state + of_parts) * (1.0 + ghosts) * (1.0 + 1.0 / 32.0);
 }
 
-// The lower bound that scenes are checked with is near what runs take, on the safe side.
+// The lower bound that is used in the check of scenes is near the memory that runs take, and not above it.
 TEST(LongExactMemory, OfADiskIsWhatScenesAreCheckedWith) {
   const double least = least_memory(Method::exact, disks) / static_cast<double>(disks);
   for (const int threads : {1, 2}) {

@@ -1,4 +1,4 @@
-// The exact method against the all-pairs oracle in long double, within the horizon that chaos leaves.
+// The exact method compared with the oracle, which tests all pairs in long double, for as long as chaos allows.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -38,7 +38,7 @@ TEST_P(ExactOracle, SamePlacesAndCounts) {
   EXPECT_EQ(state.counters.collisions, system.collisions);
   EXPECT_EQ(state.counters.wall_collisions, system.wall_collisions);
   const std::size_t with_obstacles = initial.obstacles.empty() ? 0 : system.wall_collisions;
-  EXPECT_GT(system.collisions + with_obstacles, 20U) << "a test of collisions needs some";
+  EXPECT_GT(system.collisions + with_obstacles, 20U) << "too few collisions for a test of them";
   const Disks& d = state.disks;
   for (std::size_t i = 0; i < d.size(); ++i) {
     const oracle::Ball& b = system.balls[d.id[i]];
@@ -62,7 +62,7 @@ const std::string mixed =
 const std::string giant =
     "[[disks]]\ncount = 1\npositions = [[1.0, 5.0]]\nradius = 3.0\nmass = 50.0\n"
     "[[disks]]\ncount = 80\npositions = \"random\"\nvelocities = { uniform = 1.0 }\nradius = 0.1\nmass = 0.01\n";
-// After the disks, so that their ids count from 0.
+// Fixed disks come after the others, so that the ids of the latter start from 0.
 const std::string pegs =
     "[[disks]]\nfixed = true\ncount = 8\npositions = \"random\"\nradius = { uniform = [0.05, 0.6] }\n"
     "[[disks]]\nfixed = true\ncount = 2\npositions = [[0.0, 3.0], [5.0, 0.1]]\nradius = 0.4\n";
@@ -72,14 +72,14 @@ const std::string few =
 const std::string shelves =
     "[[walls]]\npoints = [[1.0, 2.0], [3.0, 2.5], [3.5, 5.0]]\n[[walls]]\nfrom = [8.0, 3.0]\nto = [6.0, 7.0]\n"
     "[[walls]]\nfrom = [2.0, 7.0]\nto = [4.0, 6.5]\nrestitution = 0.7\n";
-// The first goes round a periodic box.
+// The first wall goes around a periodic box.
 const std::string sweeper =
     "[[walls]]\nfrom = [1.0, 2.0]\nto = [1.2, 5.0]\nrestitution = 0.9\nmotion = { velocity = [1.5, 0.4] }\n";
 const std::string paddles =
     "[[walls]]\npoints = [[3.0, 2.0], [4.0, 2.5], [5.0, 2.0]]\n"
     "motion = { vibrate = [0.3, 0.8], period = 1.1, shape = \"sine\" }\n"
     "[[walls]]\nfrom = [2.0, 6.0]\nto = [5.0, 6.2]\nmotion = { vibrate = [0.0, -0.5], period = 0.8 }\n";
-// Two groups and pegs, each pair with its own restitution but for light with light.
+// Two groups and fixed pegs. Each pair of groups has its own restitution, except light with light.
 const std::string named =
     "[[disks]]\nname = \"light\"\ncount = 14\npositions = \"random\"\nvelocities = { uniform = 1.5 }\n"
     "radius = { uniform = [0.2, 0.5] }\nmass = 1.0\n"
@@ -173,8 +173,8 @@ INSTANTIATE_TEST_SUITE_P(
         OracleCase{"inelastic_gravity", {8, 12, walls_of_salt, "restitution = 0.7\ngravity = 0.5", mixed, 4.0, ""}}),
     [](const auto& p) { return std::string(p.param.name); });
 
-// Few disks in a large periodic box fly round it many times between two collisions. Each collision magnifies an error
-// by flight over diameter, here 300, so that only the first ones can be compared.
+// In a large periodic box few disks fly around it many times between two collisions. Each collision amplifies errors by
+// flight over diameter, here 300, so only the first collisions can be compared.
 TEST(ExactOracleFewDisks, FlyRoundThePeriodicBox) {
   Domain box;
   box.width = 4.5;

@@ -1,4 +1,4 @@
-// The parallel exact engine against the reference: every bit, at any number of threads, over scenes of every feature.
+// The parallel exact engine has the bits of the reference at any number of threads, in scenes with every feature.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
@@ -25,15 +25,15 @@ void PrintTo(const ParallelCase& c, std::ostream* out) {
   *out << c.name;
 }
 
-// Parts, or where there are none regions and tiles, so small that even these scenes have some; with 1 in place of 128
-// there are none, and one queue has all events.
+// Parts, or otherwise regions and tiles, are made so small that even these scenes have some; with a divisor of 1 there
+// are none, and one queue has all events.
 State run_parallel(const Scene& scene, const State& initial, int threads, std::size_t block_divisor = 128) {
   const auto engine = make_parallel_engine(scene, initial, {threads, block_divisor});
   run_to_end(*engine, scene);
   return engine->state();
 }
 
-// Likewise with regions whose borders are processed after them, as where parts with halos are of no use.
+// Runs in regions, whose borders are processed after them, as is done if parts with halos do not pay.
 State run_in_regions(const Scene& scene, const State& initial, std::size_t block_divisor = 128) {
   const auto engine = make_parallel_exact(scene, initial, {3, block_divisor}, [](const SliceBorders&) {});
   run_to_end(*engine, scene);
@@ -86,12 +86,12 @@ const std::string sheared_fast =
 const std::string soft = "wall_restitution = 0.7";
 const std::string settling = "gravity = 1.0\nrestitution = 0.6\ncollapse = { model = \"tc\", contact_time = 0.01 }";
 
-// Large disks that rest in the flow, which carries them into each other, beside small ones that crowd: lists are as
-// short as those ask for, windows as long as the large ones allow.
+// Large disks at rest are carried by the flow into each other, beside crowded small disks: the lists are as short as
+// the small disks require, the windows as long as the large ones allow.
 const std::string resting_in_flow = random_disks(40, "radius = 1.0\nmass = 1.0") +
                                     random_disks(60, "radius = 0.001\nmass = 1.0\nregion = [8.0, 4.0, 8.03, 4.03]");
 
-// In a flat box skins are as wide as half of it is high: a disk that has gone round it has left its skin on the way.
+// In a flat box the skin is half of the box's height, so a disk that goes around the box leaves its skin on the way.
 const std::string beside_wall =
     random_disks(45,
                  "velocities = { uniform = 1.0 }\nradius = { choice = [0.03, 1.0], weights = [5, 1] }\nmass = 1.0") +
@@ -145,7 +145,7 @@ INSTANTIATE_TEST_SUITE_P(
         ParallelCase{"sources_alone", {20, 20, open_sides, "gravity = 0.2", sources, 10, ""}}),
     name_of);
 
-// More of the same kinds, each of which takes a third of a second.
+// More scenes of the same kinds, each of which takes a third of a second.
 INSTANTIATE_TEST_SUITE_P(
     LongScenes, ExactParallel,
     testing::Values(
@@ -168,7 +168,7 @@ INSTANTIATE_TEST_SUITE_P(
             {20, 20, "wall", "diffusion = 0.5\naccumulate = true", random_disks(200, equal_disks), 1, "dt = 0.02"}}),
     name_of);
 
-// Random scenes over all features.
+// Random scenes with all features.
 TEST(ExactParallelRandom, ScenesOfAllFeatures) {
   for (std::uint32_t k = 0; k < 12; ++k) {
     const auto u = uniforms(41, Stream::position, k, 0);
@@ -192,8 +192,8 @@ TEST(ExactParallelRandom, ScenesOfAllFeatures) {
   }
 }
 
-// Disks that lie on each other without rebound: whether two of them touch and approach is decided by rounding, anew
-// where each window's paths begin.
+// Disks that lie on each other without rebound: rounding decides whether two of them touch and approach, and does so
+// anew at the start of the paths in each window.
 TEST(ExactParallelContacts, ThatLast) {
   std::string column = "[[disks]]\ncount = 11\nradius = 1\nmass = 1\npositions = [";
   std::string velocities = "velocities = [";
@@ -207,7 +207,7 @@ TEST(ExactParallelContacts, ThatLast) {
       {4, 24, "left = \"sink\"\nwall_restitution = 0.99", physics, column + "]\n" + velocities + "]\n", 30, ""}));
 }
 
-// Seven disks fill a periodic row: windows so short that the rounding of places is all that moves.
+// Seven disks fill a periodic row: windows are so short that only the rounding of positions changes anything.
 TEST(LongExactParallelContacts, OfDisksWithoutRoom) {
   const std::string chain =
       "[[disks]]\ncount = 7\nradius = [0.09, 0.075, 0.3, 0.15, 0.3, 0.0375, 0.0375]\nmass = 1\n"
@@ -257,7 +257,7 @@ std::string collapse_report(Engine& engine, const Scene& scene) {
   return "none";
 }
 
-// Where events pile up at one moment, the report names the reference's, in every mode.
+// If events pile up at one moment, the report is that of the reference in every mode.
 TEST(ExactParallelCollapse, IsReportedAlike) {
   struct Case {
     int disks;
@@ -276,11 +276,12 @@ TEST(ExactParallelCollapse, IsReportedAlike) {
     EXPECT_NE(expected.find("inelastic collapse"), std::string::npos) << expected;
     const auto engine = make_parallel_engine(scene, initial, {3, c.block_divisor});
     EXPECT_EQ(collapse_report(*engine, scene), expected);
-    EXPECT_EQ(collapse_report(*engine, scene), expected) << "when it goes on from the window's start";
+    EXPECT_EQ(collapse_report(*engine, scene), expected) << "when the engine continues from the window's start";
   }
 }
 
-// The speed bound fails: a projectile scatters a cold gas, heavy disks hit light ones. The window is run again.
+// The bound on speeds fails, since a projectile scatters a cold gas and heavy disks hit light ones. Then the window is
+// run again.
 TEST(LongExactParallelSpeeds, ThatRiseWithinAWindow) {
   const std::string cold = "velocities = { maxwell = 1e-6 }\nradius = 0.4\nmass = 0.001";
   const std::string heavy =
@@ -290,8 +291,8 @@ TEST(LongExactParallelSpeeds, ThatRiseWithinAWindow) {
   expect_same_bits(make_scene({24, 24, "wall", "gravity = 3.0", heavy + random_disks(300, cold), 3, ""}));
 }
 
-// The mass of each disk of a row is a quarter of the one before: every collision passes on 1.6 times the speed,
-// 1.6^15 = 1150 in all, within one window.
+// The mass of each disk in a row is a quarter of the one before, so every collision passes on 1.6 times the speed;
+// together 1.6^15 = 1150 within one window.
 TEST(ExactParallelSpeeds, ThatRiseAThousandfoldWithinAWindow) {
   std::string row = "[[disks]]\ncount = 16\nradius = 0.4\npositions = [";
   std::string masses = "mass = [";
@@ -313,7 +314,7 @@ TEST(ExactParallelSpeeds, ThatRiseAThousandfoldWithinAWindow) {
   EXPECT_GT(fastest2, 100.0 * 100.0);
 }
 
-// Parts and regions of the size that runs have.
+// Parts and regions as large as in real runs.
 TEST(LongExactParallelSize, PartsAndRegionsAsTheyAre) {
   const Scene scene = make_scene({285, 285, "periodic", "", random_disks(50000, equal_disks), 0.12, ""});
   const State initial = initial_state(scene);
@@ -324,7 +325,7 @@ TEST(LongExactParallelSize, PartsAndRegionsAsTheyAre) {
   EXPECT_EQ(fingerprint(run_in_regions(scene, initial, 1)), reference) << "regions";
 }
 
-// After release_memory() the engine has no paths, only the state; what it builds again leads to the same bits.
+// After release_memory() the engine has only the state and no paths; what it rebuilds gives the same bits.
 TEST(ExactParallelMemory, GivenBackChangesNoBit) {
   const Scene scene = make_scene({30, 30, "periodic", "", random_disks(500, mixed_disks), 50.0, ""});
   const State initial = initial_state(scene);

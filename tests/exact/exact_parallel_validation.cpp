@@ -1,5 +1,5 @@
-// Millions of collisions: the exact engine against its reference after every window. Three ways to miss one collision
-// in half a million to a million were found by runs of this size and by nothing smaller.
+// Millions of collisions: the exact engine is compared with the reference after every window. Runs of this size, and
+// nothing smaller, have found three faults that each lost one collision in half a million to a million.
 #include <gtest/gtest.h>
 
 #include "core/disks/state_hash.hpp"

@@ -1,5 +1,5 @@
-// Production B and C to their end by the exact method: with the TC model the pile stands although every disk in it
-// collides for ever.
+// Production B and C run to their end with the exact method: with the TC model the pile stands, although every disk in
+// it collides for ever.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,10 +17,10 @@ double lift_of(const Counters& c) {
   return c.wall_impulse[static_cast<std::size_t>(Side::bottom)] - c.wall_impulse[static_cast<std::size_t>(Side::top)];
 }
 
-// contact_time 1e-2: a disk falls by 1e-4 of its radius or less in that time, and at rest there are ten times fewer
-// collisions than with 1e-3 (docs/methods.md has the figures of both). The bound on the kinetic energy is that of
-// the pairwise method's pile; what the model itself leaves is of the order of m (g t_c)^2 / 32 a disk. The
-// floor bears the weight: mean force over the last fifth of the run.
+// With contact_time 1e-2 a disk falls by at most 1e-4 of its radius in that time, and at rest there are ten times fewer
+// collisions than with 1e-3 (docs/methods.md has the figures of both). The bound on the kinetic energy is that of the
+// pairwise method's pile; the model itself leaves about m (g t_c)^2 / 32 per disk. The mean force on the floor over the
+// last fifth of the run must be the weight.
 void expect_to_settle(const char* file) {
   const Scene scene =
       load_scene(std::string(CAROM_SOURCE_DIR "/scenes/") + file,

@@ -1,5 +1,5 @@
-// The exact method against published physics (docs/reference_values.md): equation of state and collision rate, granular
-// cooling, the barometric formula, absorption, and what must be conserved over long runs.
+// The exact method compared with published physics (docs/reference_values.md): equation of state and collision rate,
+// granular cooling, the barometric formula, absorption, and conservation over long runs.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -43,8 +43,8 @@ double density_of_state(double phi) {
   return phi * ((1.0 + phi * phi / 8.0) / (free * free) - std::pow(phi / free, 4) / 64.0);
 }
 
-// What Z of an infinite system is above that of n disks in a periodic box, at a fixed number of disks (Lebowitz and
-// Percus 1961): phi M' / (2 n M), with M = d (phi Z) / d phi.
+// The excess of Z of an infinite system over that of n disks in a periodic box, at a fixed number of disks (Lebowitz
+// and Percus 1961): phi M' / (2 n M), with M = d (phi Z) / d phi.
 double above_finite(double phi, double n) {
   constexpr double h = 1e-3;
   const double below = density_of_state(phi - h);
@@ -56,8 +56,8 @@ double above_finite(double phi, double n) {
 
 class ExactEquationOfState : public testing::TestWithParam<StateCase> {};
 
-// Z from the virial of the collisions and from their number, each in blocks of 50 collisions a disk after as many to
-// forget the lattice. The table is of infinite systems, but for its last value, which is of as many disks as here.
+// Z from the virial of the collisions and from their number, each in blocks of 50 collisions per disk, after as many to
+// forget the lattice. The table is for infinite systems, except its last value, which is for as many disks as here.
 TEST_P(ExactEquationOfState, VirialAndRateAgreeWithTheTable) {
   const StateCase c = GetParam();
   const double n = c.n;
@@ -87,7 +87,7 @@ TEST_P(ExactEquationOfState, VirialAndRateAgreeWithTheTable) {
              zv.standard_error(), zr.mean, zr.standard_error(), expected);
   EXPECT_NEAR(zv.mean, expected, 3.0 * std::hypot(zv.standard_error(), c.z_error));
   EXPECT_NEAR(zr.mean, expected, 3.0 * std::hypot(zr.standard_error(), c.z_error));
-  EXPECT_LT(zv.standard_error(), 0.01 * c.z) << "too short to say anything";
+  EXPECT_LT(zv.standard_error(), 0.01 * c.z) << "the run is too short for a comparison";
 }
 
 INSTANTIATE_TEST_SUITE_P(Table, ExactEquationOfState,
@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(Table, ExactEquationOfState,
                                          StateCase{0.30, 2.06326, 5e-5, 400}, StateCase{0.50, 4.105, 2e-3, 400},
                                          StateCase{0.67, 9.36234, 3e-5, 870}));
 
-// At these multiples of tau: temperature over that at the start, over what the law says of it, the mean of eight runs.
+// The temperature at these multiples of tau, relative to that at the start and to the law; the mean of eight runs.
 template <class Law>
 std::vector<SampleMean> cooling_over_law(Scene scene, const std::vector<double>& times, double tau, const Law& law) {
   std::vector<std::vector<double>> ratios(times.size());
@@ -114,8 +114,8 @@ std::vector<SampleMean> cooling_over_law(Scene scene, const std::vector<double>&
   return means;
 }
 
-// T = T0 / (1 + t / tau)^2 while the gas stays uniform (Haff 1983): mean of eight runs, within 2 %, as far as
-// docs/reference_values.md says that it holds (eta = 0.1, e = 0.98, N = 1024, t / tau = 4.7), and on the way there.
+// T = T0 / (1 + t / tau)^2 while the gas stays uniform (Haff 1983): the mean of eight runs is within 2 %, up to the
+// time until which the law holds by docs/reference_values.md (eta = 0.1, e = 0.98, N = 1024, t / tau = 4.7).
 TEST(ExactHaff, CoolsAsItShould) {
   const double gamma0 = 4.0 * 0.236144 / std::sqrt(std::numbers::pi);
   const double e = 0.98;
@@ -128,18 +128,19 @@ TEST(ExactHaff, CoolsAsItShould) {
     const SampleMean& ratio = ratios[k];
     fmt::print("Haff, t / tau = {}: T over the law's {:.4f} +- {:.4f}\n", times[k], ratio.mean, ratio.standard_error());
     EXPECT_NEAR(ratio.mean, 1.0, 0.02) << "t / tau = " << times[k];
-    EXPECT_LT(ratio.standard_error(), 0.007) << "too few runs to say anything";
+    EXPECT_LT(ratio.standard_error(), 0.007) << "too few runs for a comparison";
   }
 }
 
-// dT/dt of the viscoelastic gas at temperature T, m = 1, diameter 1: half the collision rate of a disk, gamma0 sqrt(T),
-// times (1 - e^2) v^2 / 4 with 1 - e^2 = 2 a v^(1/5) - a^2 v^(2/5), where v of colliding disks has v exp(-v^2 / 4 T).
+// dT/dt of the viscoelastic gas at temperature T, for m = 1 and diameter 1: half the collision rate of a disk, gamma0
+// sqrt(T), times the mean of (1 - e^2) v^2 / 4 with 1 - e^2 = 2 a v^(1/5) - a^2 v^(2/5), where the speed v of colliding
+// disks is distributed as v exp(-v^2 / 4 T).
 double viscoelastic_cooling(double gamma0, double a, double t) {
   const auto mean_power = [&](double power) { return std::pow(4.0 * t, 0.5 * power) * std::tgamma(0.5 * power + 1.0); };
   return -gamma0 * std::sqrt(t) / 8.0 * (2.0 * a * mean_power(2.2) - a * a * mean_power(2.4));
 }
 
-// Its temperature at `time` from 1 on, by steps of Runge and Kutta.
+// Its temperature at `time`, starting from 1, by the method of Runge and Kutta.
 double viscoelastic_temperature(double gamma0, double a, double time) {
   constexpr int steps = 10'000;
   const double dt = time / steps;
@@ -151,8 +152,8 @@ double viscoelastic_temperature(double gamma0, double a, double time) {
   return t;
 }
 
-// Disks whose e tends to 1 as they become slow cool as T ~ t^(-5/3), (1 + t / tau)^(-5/3) in leading order (Schwager
-// and Poeschel 1998), not as Haff's t^-2: mean of eight runs against the equation of uniform cooling.
+// Disks whose e tends to 1 at low speeds cool as T ~ t^(-5/3), in leading order (1 + t / tau)^(-5/3) (Schwager and
+// Poeschel 1998), not as Haff's t^-2: the mean of eight runs compared with the equation of uniform cooling.
 TEST(ExactViscoelasticGas, CoolsSlowerThanHaffsLaw) {
   const double gamma0 = 4.0 * 0.236144 / std::sqrt(std::numbers::pi);
   const double a = 0.02;
@@ -168,11 +169,11 @@ TEST(ExactViscoelasticGas, CoolsSlowerThanHaffsLaw) {
     fmt::print("viscoelastic, t / tau = {}: T over the law's {:.4f} +- {:.4f}; Haff's law would have {:.3f}\n",
                times[k], ratio.mean, ratio.standard_error(), haff);
     EXPECT_NEAR(ratio.mean, 1.0, 0.02) << "t / tau = " << times[k];
-    EXPECT_LT(ratio.standard_error(), 0.007) << "too few runs to say anything";
+    EXPECT_LT(ratio.standard_error(), 0.007) << "too few runs for a comparison";
   }
 }
 
-// Share of the disks in each of `bins` equal layers between floor and ceiling, added up over samples.
+// The share of the disks in each of `bins` equal layers between floor and ceiling, summed over samples.
 class Layers {
  public:
   Layers(double low, double high, std::size_t bins) : low_(low), high_(high), count_(bins, 0.0) {}
@@ -191,10 +192,10 @@ class Layers {
   double total_ = 0.0;
 };
 
-// Dilute disks under gravity: density ~ exp(-m g y / kT) between floor and ceiling, in eight layers, each within three
-// standard errors. 1000 disks, so dilute that their own room shifts the density by 4 eta = 4e-3 at the floor, and so
-// many that the fixed total energy shifts it by 2e-3 at the ceiling; 16 blocks of 80 units of time, 20 collisions a
-// disk each.
+// Dilute disks under gravity have a density ~ exp(-m g y / kT) between floor and ceiling: eight layers are compared,
+// each within three standard errors. There are 1000 disks, so dilute that their own volume shifts the density by only 4
+// eta = 4e-3 at the floor, and so many that the fixed total energy shifts it by only 2e-3 at the ceiling. 16 blocks of
+// 80 units of time, with 20 collisions per disk in each.
 TEST(ExactBarometer, DensityInEightLayers) {
   const double height = 8.0;
   const double radius = 0.003;
@@ -208,7 +209,7 @@ TEST(ExactBarometer, DensityInEightLayers) {
                                               radius),
                                   block * (blocks + 1), ""});
   const auto engine = make_parallel_engine(scene, initial_state(scene), {1, 1});
-  run_until(*engine, block);  // to equilibrium
+  run_until(*engine, block);  // equilibration
   std::vector<double> shares[layers];
   double kt = 0.0;
   double samples = 0.0;
@@ -233,11 +234,11 @@ TEST(ExactBarometer, DensityInEightLayers) {
     fmt::print("barometer, layer {}: {:.5f} +- {:.5f}, formula {:.5f}\n", layer, share.mean, share.standard_error(),
                expected);
     EXPECT_NEAR(share.mean, expected, 3.0 * share.standard_error()) << "layer " << layer;
-    EXPECT_LT(share.standard_error(), 0.02 * expected) << "too short to say anything";
+    EXPECT_LT(share.standard_error(), 0.02 * expected) << "the run is too short for a comparison";
   }
 }
 
-// The share of Brownian points that an absorbing square has not taken yet, three standard errors.
+// The share of Brownian points that an absorbing square has not yet taken, within three standard errors.
 TEST(ExactAbsorption, SurvivorsOfASquare) {
   constexpr double n = 20000.0;
   const Scene scene =
@@ -255,8 +256,8 @@ TEST(ExactAbsorption, SurvivorsOfASquare) {
   }
 }
 
-// The bounds are meant for 10^8 collisions, here over 10^7 (docs/methods.md has the long run's figures). Overlap is
-// measured after every window, so that no wrong collision goes unnoticed.
+// The bounds are for 10^8 collisions; here there are over 10^7 (docs/methods.md has the figures of the long run).
+// Overlap is measured after every window, so that no wrong collision goes unnoticed.
 TEST(ExactLongRun, NoOverlapNoDrift) {
   const Scene scene = gas(20000, 0.6, 90.0);
   const State initial = initial_state(scene);

@@ -1,5 +1,5 @@
-// Disks that fly far within one window, into a periodic box through its border: their paths have other coordinates than
-// the disks they meet there; or over a quarter of the box, after which a path is cut.
+// Disks that fly far within one window: across the border of a periodic box, so that the coordinates of their paths
+// differ by a period from those of the disks they meet there; or over a quarter of the box, where a path is cut.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,8 @@
 namespace carom::exact_tests {
 namespace {
 
-// Dilute gases in which the first was seen to go wrong: a collision was missed in one window of some thousand.
+// Dilute gases in which flights of the first kind once went wrong: in one of some thousand windows a collision was
+// missed.
 Scene gas_of_light_and_heavy(int seed, int count, int side, bool falls) {
   return parse_scene(fmt::format(R"(seed = {0}
 [box]
@@ -43,12 +44,12 @@ t_end = 1e6
 struct FarFlight {
   int seed, count, side;
   bool falls;
-  int window;  // in which a collision was missed
+  int window;  // the window in which a collision was missed
 };
 
 class ExactFarFlight : public testing::TestWithParam<FarFlight> {};
 
-// The window's lists are some that have been in use for long, and some that have just been built.
+// The window is run with lists that have been in use for long, and with lists just built.
 TEST_P(ExactFarFlight, IsAsTheReferenceHasIt) {
   const FarFlight& c = GetParam();
   const Scene scene = gas_of_light_and_heavy(c.seed, c.count, c.side, c.falls);
@@ -73,8 +74,9 @@ INSTANTIATE_TEST_SUITE_P(Gases, ExactFarFlight,
                                          FarFlight{223, 1315, 106, true, 49}, FarFlight{293, 1315, 106, true, 50}),
                          [](const auto& p) { return fmt::format("Seed{}", p.param.seed); });
 
-// A few disks that a shear drives ever faster. What is kept of a prediction in a window before says nothing of where
-// the path is to be cut, once it becomes as long as that: without the cut, the place at its end is rounded otherwise.
+// A few disks that a shear makes ever faster. A prediction kept from an earlier window does not say where the path has
+// to be cut once the path has become long enough for that. Without the cut the position at its end is rounded
+// differently.
 TEST(ExactFastFlight, IsCutWhereLaterWindowsBringItSoFar) {
   for (const auto& [seed, count, rate] : {std::tuple{1, 28, 0.5}, {2, 20, 0.5}, {7, 20, 0.3}}) {
     const Scene scene = parse_scene(fmt::format(R"(seed = {}
@@ -104,7 +106,7 @@ t_end = 16
       reference->step();
       states.push_back(reference->state());
     }
-    // Lists are built anew in every few windows, in other ones where the engine begins later.
+    // Lists are rebuilt every few windows; which windows depends on where the engine starts.
     for (std::size_t first = 8; first < 12; ++first) {
       const auto engine = make_parallel_engine(scene, states[first], {1});
       for (std::size_t k = first + 1; k < states.size(); ++k) {

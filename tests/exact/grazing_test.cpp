@@ -1,6 +1,6 @@
-// Contacts that rounding decides, windows after they were first looked for: disks that pass each other at their contact
-// distance, to the last bits, and disks that rise to the ceiling and no further. Where a window's paths begin anew from
-// rounded places, one that missed by a rounding may touch.
+// Contacts that rounding decides, several windows after they were first predicted: disks that pass each other exactly
+// at their contact distance, and disks that rise just to the ceiling. Each window's paths start from rounded positions,
+// so disks that missed each other by a rounding may then touch.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ namespace {
 // Pairs of disks, each in a cell of its own.
 struct Pairs {
   int a_side = 0;
-  double cell = 0.0;  // length
+  double cell = 0.0;  // side of a cell; length
   double side() const { return a_side * cell + 2.0; }
 };
 
@@ -36,7 +36,7 @@ Vec2 in_cell(test::Draws& draws, const Pairs& pairs, int k) {
   return {x * pairs.cell + draws.in(-0.5, 0.5), y * pairs.cell + draws.in(-0.5, 0.5)};
 }
 
-// The second disk of each pair comes along a line that passes the first one at their contact distance.
+// The second disk of each pair moves along a line that passes the first one at their contact distance.
 State passing(test::Draws& draws, const Pairs& pairs, bool unequal_radii, double unit) {
   std::vector<Disk> list;
   for (int k = 0; k < pairs.a_side * pairs.a_side; ++k) {
@@ -46,7 +46,7 @@ State passing(test::Draws& draws, const Pairs& pairs, bool unequal_radii, double
     const double way = draws.in(0.05, 0.5 * pairs.cell - 1.6);
     const double angle = draws.in(0.0, 2.0 * std::numbers::pi);
     const double c = std::cos(angle), s = std::sin(angle);
-    // Some come slowly.
+    // Some disks are slow.
     const double speed = draws.in(0.5, 2.0) * (k % 4 == 0 ? std::pow(10.0, -draws.in(0.0, 6.0)) : 1.0);
     const Vec2 both = k % 2 == 0 ? Vec2{} : Vec2{draws.in(-1.0, 1.0), draws.in(-1.0, 1.0)};
     const double beside = first + second;
@@ -69,7 +69,7 @@ State rising(test::Draws& draws, const Pairs& pairs, double g) {
   return test::state_of(list);
 }
 
-// A source that finds room for a few small disks in a corner, and cuts windows short for ever after.
+// A source that has room for a few small disks in a corner, and afterwards still cuts windows short.
 Source cutting_source(const Pairs& pairs, double rate) {
   Source source;
   const double at = pairs.side() - 0.3;
@@ -81,8 +81,8 @@ Source cutting_source(const Pairs& pairs, double rate) {
   return source;
 }
 
-// A box in which windows last a hundredth of what they are meant to, for one seed in three; else they are cut now and
-// then.
+// A box with a source. For one seed in three its rate makes all windows a hundredth of their usual length; otherwise
+// windows are cut short now and then.
 Scene cut_scene(const Pairs& pairs, std::uint32_t seed) {
   const bool periodic = seed % 2 == 0;
   Scene scene = plain_scene(
@@ -94,7 +94,7 @@ int cut_windows(std::uint32_t seed) {
   return seed % 3 == 0 ? 400 : 60;
 }
 
-// Every window of one queue, of parts and of regions is the reference's. Returns how many collisions there were.
+// Compares every window of one queue, of parts and of regions with the reference. Returns the number of collisions.
 Count expect_reference(const Scene& scene, State start, int windows) {
   start.sources.resize(scene.sources.size());
   const auto reference = make_reference_exact(scene, start);
@@ -102,7 +102,8 @@ Count expect_reference(const Scene& scene, State start, int windows) {
   engines.push_back(make_parallel_engine(scene, start, {1}));
   engines.push_back(make_parallel_engine(scene, start, {2, 1024}));
   engines.push_back(make_parallel_exact(scene, start, {2, 1024}, [](const SliceBorders&) {}));
-  // A window has far fewer events than that: it is asked once in some thousand of them whether to go on.
+  // The watch is called once for some thousand events, so a window may call it only a few times; more calls mean that
+  // it hangs.
   int asked = 0;
   for (const auto& engine : engines) engine->set_watch([&asked] { return ++asked < 1000; });
   for (int k = 0; k < windows && !testing::Test::HasFailure(); ++k) {
@@ -118,7 +119,7 @@ Count expect_reference(const Scene& scene, State start, int windows) {
   return all.collisions + all.wall_collisions;
 }
 
-// The sum of count(seed, draws, pairs) over so many seeds, for scenes made from them.
+// The sum of count(seed, draws, pairs) over these seeds, for scenes made from them.
 template <class CountOf>
 Count over_seeds(std::uint32_t seeds, CountOf&& count) {
   Count all = 0;
@@ -165,8 +166,8 @@ INSTANTIATE_TEST_SUITE_P(Paths, Grazing,
                                          Case{"small", {}, true, 0.0, 0x1.4p-20}),
                          [](const auto& p) { return std::string(p.param.name); });
 
-// The same where windows are cut short: contacts that were predicted in one of them come after many others, at whose
-// starts paths were rounded.
+// The same with windows cut short: many windows, each starting with rounded paths, lie between the prediction of a
+// contact and the contact.
 TEST(GrazingSources, DisksThatPassAtTheirContactDistance) {
   const Count collisions = over_seeds(9, [](std::uint32_t seed, test::Draws& draws, const Pairs& pairs) {
     return expect_reference(cut_scene(pairs, seed), passing(draws, pairs, false, 1.0), cut_windows(seed));
@@ -174,7 +175,7 @@ TEST(GrazingSources, DisksThatPassAtTheirContactDistance) {
   EXPECT_GT(collisions, 100U);
 }
 
-// By a fall's length, to the last bits.
+// The heights of rise end exactly at the ceiling, up to the last bits.
 TEST(GrazingSides, DisksThatRiseToTheCeiling) {
   const Count collisions = over_seeds(24, [](std::uint32_t /*seed*/, test::Draws& draws, const Pairs& pairs) {
     const double g = draws.in(0.1, 1.0);
@@ -184,13 +185,13 @@ TEST(GrazingSides, DisksThatRiseToTheCeiling) {
   EXPECT_GT(collisions, 1000U);
 }
 
-// The ceiling comes down as a sine. Disks rise as fast as it does when it comes nearest to them, all but to their
-// edges, to the last bits; from below, so that it has not met them before.
+// The ceiling vibrates as a sine. Disks rise at the speed that it has when it comes nearest to them, and then just
+// reach their edges, up to the last bits; they come from below, so that it has not met them before.
 State under_a_sine(test::Draws& draws, double side, const SideMotion& ceiling) {
   constexpr double radius = 0.5, apart = 2.2 * radius;
   std::vector<Disk> list;
   for (double x = radius; x < side - 4.0 * radius; x += apart) {
-    // In the second quarter of a period, as it goes up again.
+    // This time is in the second quarter of a period, when the ceiling goes up again.
     const double nearest_at = ceiling.period * (std::floor(draws.in(0.0, 6.0)) + draws.in(0.3, 0.45));
     const SidePlace there = ceiling.at(nearest_at);
     const double y = side - radius - there.inset + there.speed * nearest_at;
@@ -216,8 +217,8 @@ TEST(GrazingSides, DisksUnderASineThatComesAsFarAsTheirEdges) {
   EXPECT_GT(contacts, 100U);
 }
 
-// A fixed disk in each second cell, and the end of an inner wall in the others; a disk comes along a line that passes
-// it at the contact distance.
+// Every second cell has a fixed disk, the others the end of an inner wall; a disk moves along a line that passes it at
+// the contact distance.
 State passing_obstacles(test::Draws& draws, const Pairs& pairs, Scene& scene) {
   constexpr double radius = 0.5;
   std::vector<Disk> list;
@@ -253,8 +254,8 @@ TEST(GrazingObstacles, DisksThatPassAtTheirContactDistance) {
   EXPECT_GT(contacts, 100U);
 }
 
-// In these a disk near a border between regions falls in free flight through a whole window, and has to be relisted at
-// its very end: which its last slice waits for.
+// With these seeds a disk near a border between regions falls freely through a whole window and has to be relisted at
+// its very end, for which the last slice must wait.
 TEST(GrazingSides, DisksThatAreRelistedAtTheEndOfAWindow) {
   for (const std::uint32_t seed : {1305U, 1491U, 1906U}) {
     SCOPED_TRACE(seed);

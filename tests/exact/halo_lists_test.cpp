@@ -1,4 +1,4 @@
-// Whether the lists of parts with halos have all that own disks may grow against.
+// Parts with halos report whether their lists contain all disks against which own disks may grow.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -21,18 +21,18 @@ std::string at_rest(std::size_t count, double left, double right, double radius 
                      count, left, right, radius);
 }
 
-// In the lane below the others.
+// A disk in the lane below the others.
 std::string flying(double x, double velocity, double radius = 0.2) {
   return fmt::format("[[disks]]\ncount = 1\npositions = [[{}, 2]]\nvelocities = [[{}, 0]]\nradius = {}\nmass = 1\n", x,
                      velocity, radius);
 }
 
-// Three parts, the second from 62.29 to 76.39, with halos of 9.33 where no disk is larger than 1.17, after one window
-// of this length without a collision.
+// Three parts, the second from 62.29 to 76.39, with halos of 9.33 if no disk is larger than 1.17, after one window of
+// the given length without a collision.
 struct AfterOneWindow {
   AfterOneWindow(const std::string& disks, double length, double growth = 0.0, bool upright = false)
       : AfterOneWindow(make_scene({140, 35, "wall", "", disks, 100, ""}), 3, length, growth, upright) {}
-  // Of so many parts. upright: with x and y exchanged.
+  // The same with another number of parts. upright: x and y are exchanged.
   AfterOneWindow(Scene in_box, int threads, double length, double growth = 0.0, bool upright = false)
       : scene(std::move(in_box)), state(initial_state(scene)), executor(threads, 128) {
     if (upright) {
@@ -50,7 +50,7 @@ struct AfterOneWindow {
     EXPECT_EQ(state.counters.collisions, 0U);
   }
 
-  // How often the disk of one id lists that of another.
+  // The number of times that the disk `by` lists the disk `other`.
   int times_listed(DiskId by, DiskId other) const {
     std::atomic<int> found{0};
     windows.visit_lists([&](std::size_t i, std::span<const std::uint32_t> near) {
@@ -69,15 +69,16 @@ struct AfterOneWindow {
 
 const std::string lattices = at_rest(300, 43, 63) + at_rest(299, 63.5, 77) + at_rest(300, 79, 99);
 
-// A disk of the second part has flown from 70 to this place. So far inside, both others have it as a ghost: it stays a
-// disk of its part wherever it goes.
+// A disk of the second part has flown from 70 to `place`. At its start both other parts have it as a ghost, so it stays
+// a disk of its part wherever it goes.
 bool lists_are_complete(double place, bool upright) {
   AfterOneWindow after(flying(70, place < 70.0 ? -1 : 1) + lattices, std::abs(place - 70.0), 0.0, upright);
   return after.windows.complete_lists();
 }
 
-// Another part's disk may be beyond its end as well, and come as near to the disk as they may grow: if both are less
-// than 4.47 outside, half of what halos are wider than two disks, it is a ghost here.
+// A disk of another part may be beyond its part's end, too, and may come so near that both may grow against each other.
+// If each is less than 4.47 outside its part, half of the halo's width beyond two disks, the other disk is a ghost
+// here.
 TEST(HaloLists, AreCompleteWhereNoDiskIsFarBeyondItsPart) {
   for (const bool upright : {false, true}) {
     for (const double place : {57.9, 80.8}) EXPECT_TRUE(lists_are_complete(place, upright)) << place;
@@ -85,7 +86,7 @@ TEST(HaloLists, AreCompleteWhereNoDiskIsFarBeyondItsPart) {
   }
 }
 
-// Both may grow, even to the largest disk of all, which is in another part: that leaves 4.37.
+// Both disks may grow to the size of the largest disk, which is in another part; that leaves 4.37.
 TEST(HaloLists, AreCompleteForAllThatTheLargestDiskMayGrow) {
   const std::string small = at_rest(299, 43, 63, 0.1) + at_rest(299, 63.5, 77, 0.1) + at_rest(300, 79, 99, 0.1);
   for (const auto& [place, complete] : {std::pair{58.0, true}, std::pair{57.87, false}}) {
@@ -94,7 +95,8 @@ TEST(HaloLists, AreCompleteForAllThatTheLargestDiskMayGrow) {
   }
 }
 
-// From beyond the halo to a disk at the end of another part, in the last window: it is a ghost there, once.
+// A disk has flown from beyond the halo to a disk at the end of another part in the last window: it is a ghost there,
+// once.
 TEST(HaloLists, TellOfADiskThatHasJustCome) {
   AfterOneWindow after(
       flying(75, 0) + flying(97, -1) + at_rest(300, 43, 63) + at_rest(299, 63.5, 77) + at_rest(299, 79, 99), 20);
@@ -105,8 +107,8 @@ TEST(HaloLists, TellOfADiskThatHasJustCome) {
   }
 }
 
-// Two by two parts that meet at (30, 30), with halos of 12, in each of whose outer corners is a lattice. From beyond
-// the halo a disk flies towards one that rests just behind that point, and is a ghost there then, once.
+// Two by two parts that meet at (30, 30), with halos of 12; the outer corner of each has a lattice. A disk flies from
+// beyond the halo towards a disk at rest just across that point, and must then be a ghost there, once.
 TEST(HaloLists, TellOfADiskThatHasJustComeAcrossACorner) {
   const auto lattice = [](int x, int y) {
     return fmt::format(
@@ -131,7 +133,7 @@ TEST(HaloLists, TellOfADiskThatHasJustComeAcrossACorner) {
   }
 }
 
-// The lists of the second part are of small disks, and do not reach as far as a large one that has come.
+// The lists of the second part are made for small disks and do not reach far enough for the large disk that has come.
 TEST(HaloLists, AreNotCompleteWhereALargerDiskHasCome) {
   AfterOneWindow after(flying(97, -1, 1.1) + lattices, 15);
   EXPECT_FALSE(after.windows.complete_lists());

@@ -1,4 +1,4 @@
-// How halos and slices adapt to what the last windows needed.
+// Halos and slices adapt to the needs of the last windows.
 #include "parallel/exact/halo_tuning.hpp"
 
 #include <gtest/gtest.h>
@@ -9,12 +9,12 @@
 namespace carom {
 namespace {
 
-// What a window needed is forgotten when halos are made anew.
+// The needs of earlier windows are forgotten when halos are made anew.
 TEST(HaloTuning, WidensHalosThatAreTooNarrow) {
   HaloTuning tuning(8.0, true);
   tuning.see_window({});
   tuning.adapt();
-  EXPECT_EQ(tuning.spacings(), 8.0) << "nothing was seen";
+  EXPECT_EQ(tuning.spacings(), 8.0) << "no window has needed anything yet";
   tuning.see_window({3.1, 2.0});
   EXPECT_FALSE(tuning.is_too_narrow());
   tuning.see_window({2.9, 2.0});
@@ -57,7 +57,7 @@ TEST(HaloTuning, LeavesAllAsItIsWhereItDoesNotAdapt) {
   EXPECT_EQ(tuning.slices(), 4);
 }
 
-// Of slices, the worst of each.
+// Of several slices the largest need counts, separately for each quantity.
 TEST(HaloUse, IsOfTheNearestAndTheDeepest) {
   HaloUse use;
   use.see({5.0, 1.0});

@@ -1,4 +1,4 @@
-// Windows in parts with halos: the bits of one queue, wherever halos suffice; where they do not, that is seen.
+// Windows in parts with halos have the bits of one queue if the halos suffice; if they do not, this is noticed.
 #include "parallel/exact/halo_windows.hpp"
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ namespace {
 const std::string mixed =
     "velocities = { uniform = 2.0 }\nradius = { uniform = [0.2, 0.6] }\nmass = { uniform = [1, 40] }";
 
-// Runs windows in parts alone; divisor: 1, or how much smaller blocks of work are, and with them halos.
+// Runs windows in parts only. divisor: 1, or the factor by which blocks of work, and thus halos, are smaller.
 struct InParts {
   InParts(Scene s, State initial, int threads, std::size_t divisor)
       : scene(std::move(s)), state(std::move(initial)), executor(threads, divisor) {}
@@ -52,7 +52,8 @@ struct Tally {
   std::size_t parts = 0;
 };
 
-// After each window both have the same state; after one that was void in all tries, parts begin with the right one.
+// After each window both must have the same state. If a window is void in all tries, the parts continue from the right
+// state.
 Tally run_beside_one_queue(const Scene& scene, const State& initial, int threads, std::size_t divisor, int windows) {
   const auto one_queue = make_parallel_engine(scene, initial, {1});
   InParts parts(scene, initial, threads, divisor);
@@ -94,7 +95,7 @@ TEST(LongHaloWindows, HardlyAnyIsVoid) {
   }
 }
 
-// As wide as a part or narrower than what a collision reaches: some windows are void, and none is wrong.
+// Halos as wide as a part, or narrower than the reach of collisions: some windows are void, but none is wrong.
 TEST(HaloWindows, AreVoidWhereHalosAreTooNarrow) {
   const Scene scene = make_scene({60, 60, "periodic", "", random_disks(2000, equal_disks), 1000, ""});
   Tally all;
@@ -108,8 +109,8 @@ TEST(HaloWindows, AreVoidWhereHalosAreTooNarrow) {
   EXPECT_GT(all.void_runs, 3U);
 }
 
-// Work is cut so small that a thread with more than 10^6 / 512 disks has parts of 125000 / 512, or half as many where
-// there are several threads. Halos are then so narrow that most windows are void; those that are done have the right
+// Work is cut so small that one thread makes parts of 125000 / 512 disks when it has more than 10^6 / 512, and several
+// threads parts half as large. Halos are then so narrow that most windows are void; those that are done have the right
 // bits.
 TEST(LongHaloWindows, SeveralOnEachThread) {
   const Scene scene = make_scene({100, 100, "periodic", "", random_disks(5000, equal_disks), 1000, ""});
@@ -121,8 +122,8 @@ TEST(LongHaloWindows, SeveralOnEachThread) {
   }
 }
 
-// Two by three, two by four, three by three: a disk at a corner is a ghost of three parts, or of one, of two along a
-// period.
+// Two by three, two by four, and three by three parts: a disk at a corner is a ghost of three parts, or along a period
+// of one or two.
 TEST(LongHaloWindows, InRowsAndColumns) {
   const Scene scene = make_scene({140, 140, "periodic", "", random_disks(9000, equal_disks), 1000, ""});
   for (const int threads : {6, 8, 9}) {
@@ -156,7 +157,7 @@ TEST(LongHaloWindows, OfOtherScenes) {
   }
 }
 
-// Few disks move in a lattice at rest, in a lane free of it.
+// A few disks move in a lane along a lattice at rest.
 std::string lane(double width, double first, double other, double height, double velocity = -100) {
   return fmt::format(
       "[[disks]]\ncount = 2\npositions = [[{}, 0.5], [{}, 0.5]]\nvelocities = [[{}, 0], [0, 0]]\nradius = 0.2\n"
@@ -176,9 +177,9 @@ std::string at_rest(std::size_t count, double left, double right) {
       right);
 }
 
-// Behind these disks there is nothing but a lattice at rest at either end, of so many that two parts meet just behind
-// one disk in the middle, at x = 70.02. Their halos are 4 wide. The first window is as long as any, so that a disk
-// comes far in each of its slices: it is seen only at a slice's end which ghosts went wrong.
+// Besides the given disks there is only a lattice at rest at each end, with numbers such that two parts meet just
+// behind a single disk in the middle, at x = 70.02. Halos are 4 wide. The first window has the greatest length, so a
+// disk flies far in each slice, and wrong ghosts are noticed only at a slice's end.
 Tally run_in_two_parts(const std::vector<FlyingDisk>& disks, int windows, const std::string& physics = "",
                        double t_end = 10.0, const std::string& sides = "wall") {
   std::size_t left = 2499, right = 2500;
@@ -196,16 +197,16 @@ Tally run_in_two_parts(const std::vector<FlyingDisk>& disks, int windows, const 
   return run_beside_one_queue(scene, initial, 2, 128, windows);
 }
 
-// A disk beyond the halo hits a ghost at rest, which flies so deep into the part that its owner knows no disk there:
-// that one of them is to be met is seen from the ghost's leaving its owner alone.
+// A disk beyond the halo hits a ghost at rest, which then flies so deep into the part that its owner has no disk there.
+// The only sign that it has to meet one is that the ghost leaves its owner.
 TEST(HaloWindows, AreVoidWhereAGhostComesInThatRestsHere) {
   const Tally tally = run_in_two_parts({{65, 0.5, 0, 0}, {73.5, 0.5, 0, 0}, {74.5, 0.5, -100, 0}}, 1);
   EXPECT_EQ(tally.done, 0);
   EXPECT_GT(tally.void_runs, 0U);
 }
 
-// A ghost flies to a disk of the part, but for one that another beyond the halo knocks into its way: that it has met
-// the disk here is seen from the part's own mark alone.
+// A ghost would fly to a disk of the part, if another disk beyond the halo did not knock a third into its way. The only
+// sign that it has met the part's disk here is the part's own mark.
 TEST(HaloWindows, AreVoidWhereAGhostIsMetThatTurnsBackAtItsOwners) {
   const Tally tally = run_in_two_parts({{68, 0.5, 0, 0},
                                         {73.6, 0.5, -100, 0},
@@ -217,16 +218,16 @@ TEST(HaloWindows, AreVoidWhereAGhostIsMetThatTurnsBackAtItsOwners) {
   EXPECT_GT(tally.void_runs, 0U);
 }
 
-// Hit so late that it concerns nobody in this window, the ghost is put on its path, and predicted on it, for the next
-// one. (The last disk shortens windows.)
+// The ghost is hit so late that this window does not need it. For the next window it gets its true path, and its events
+// are predicted on that. (The last disk shortens windows.)
 TEST(HaloWindows, PredictAGhostAnewThatRestedHere) {
   const Tally tally =
       run_in_two_parts({{65, 0.5, 0, 0}, {73.9, 0.5, 0, 0}, {122.3, 0.5, -100, 0}, {100, 17, 0, 100}}, 2);
-  EXPECT_EQ(tally.done, 1) << "the next window is void";
+  EXPECT_EQ(tally.done, 1) << "only the first window can be run: the next is void";
 }
 
-// A disk beyond the halo turns a ghost so lightly that its path keeps its bits, but not its spin. By another ghost,
-// which it hits in the same slice, a disk of this part comes to turn as lightly. (All lengths and times are exact.)
+// A disk beyond the halo changes the spin of a ghost, but so little that no bit of its path changes. Through another
+// ghost, which is hit in the same slice, a disk of this part gets as small a spin. (All lengths and times are exact.)
 TEST(HaloWindows, PutAGhostRightThatDiffersInItsSpinAlone) {
   constexpr double radius = 0.3125;
   const Tally tally = run_in_two_parts({{68.125, 1, 0, 1, 1, radius},
@@ -238,9 +239,9 @@ TEST(HaloWindows, PutAGhostRightThatDiffersInItsSpinAlone) {
   EXPECT_EQ(tally.void_runs, 0U);
 }
 
-// A disk beyond the halo hits one that hits another, which becomes four times as fast as any at the window's start, and
-// comes through the end. It flies more than a quarter of the period, where its path is cut. The part that it comes into
-// has not seen why it is so fast, and cuts it as well.
+// Beyond the halo a disk hits one that hits another, which becomes four times as fast as any disk at the window's start
+// and crosses the end of its part. It flies more than a quarter of the period, where its path is cut. The part that it
+// enters does not know why it is so fast, and must cut the path as well.
 TEST(HaloWindows, CutThePathOfAGhostThatHasBecomeFastElsewhere) {
   const Tally tally = run_in_two_parts({{74.183, 1.0, 0, 100, 1e6}, {73.9, 1.6, 0, 0}, {73.405, 2.095, 0, 0, 1e-3}}, 1,
                                        "", 0.07, "bottom = \"periodic\"\ntop = \"periodic\"");
@@ -248,7 +249,7 @@ TEST(HaloWindows, CutThePathOfAGhostThatHasBecomeFastElsewhere) {
   EXPECT_EQ(tally.void_runs, 0U);
 }
 
-// A part has nothing to take where a wall is its end: else its own disks would become its ghosts.
+// At a wall a part has no neighbour to take disks from; otherwise its own disks would become its ghosts.
 TEST(HaloWindows, AreNotVoidWhereAPartEndsAtAWall) {
   const Scene scene = make_scene({120, 60, "wall", "", random_disks(4000, equal_disks), 1000, ""});
   const Tally tally = run_beside_one_queue(scene, 2, 1, 12);
@@ -257,7 +258,8 @@ TEST(HaloWindows, AreNotVoidWhereAPartEndsAtAWall) {
   EXPECT_EQ(tally.void_runs, 0U);
 }
 
-// From an outer one of three parts through the second into the third, whose disk there neither of the first two has.
+// A disk flies from the first of three parts through the second into the third, to a disk that neither of the first two
+// has. The same in the opposite direction.
 TEST(HaloWindows, AreVoidWhereADiskComesToAThirdPart) {
   for (const std::string& disks : {lane(140, 23.8, 108, 35), lane(140, 116.2, 32, 35, 100)}) {
     const Scene scene = make_scene({140, 35, "wall", "", disks, 1.5, ""});
@@ -268,8 +270,8 @@ TEST(HaloWindows, AreVoidWhereADiskComesToAThirdPart) {
   }
 }
 
-// From the end of an outer one of three parts, where the second has it as a ghost, through that one and so deep into
-// the third that the second has no disk there.
+// A disk starts at the end of an outer part, where the second one has it as a ghost, flies through the second, and so
+// deep into the third that the second has no disk there.
 TEST(HaloWindows, AreVoidWhereADiskFliesThroughAPartIntoAThird) {
   for (const bool upright : {false, true}) {
     const auto at = [upright](double along, double across) {
@@ -290,8 +292,9 @@ TEST(HaloWindows, AreVoidWhereADiskFliesThroughAPartIntoAThird) {
   }
 }
 
-// From one of three parts into the second, which takes it over, and on into the third, which the first is not next to:
-// it is to hear of the disk from the second. A thermostat that kicks no disk keeps windows short.
+// A disk flies from one of three parts into the second, which takes it over, and on into the third, which is no
+// neighbour of the first: the third must learn of the disk from the second. A thermostat that kicks no disk keeps
+// windows short.
 TEST(HaloWindows, TellAThirdPartOfADiskThatWasTakenOver) {
   const std::string kicks = "thermostat = { kind = \"andersen\", temperature = 1, rate = 1e-12, dt = 0.05 }";
   for (const std::string& disks : {lane(140, 108, 23.8, 35), lane(140, 32, 116.2, 35, 100)}) {
@@ -303,11 +306,11 @@ TEST(HaloWindows, TellAThirdPartOfADiskThatWasTakenOver) {
   }
 }
 
-// As far inside of its part as halos are wide, to the last bit, where across the period rounding tells.
+// A disk is inside its part by exactly a halo's width, where rounding across the period decides.
 TEST(HaloWindows, KnowADiskAtTheHalosEdgeOnBothSidesOfAPeriod) {
   const std::string sides = "left = \"periodic\"\nright = \"periodic\"";
   Scene scene = make_scene({140.302, 35, sides, "", lane(140.302, 8.0069900102902469, 127.302, 35), 0.35, ""});
-  scene.box.width = 140.30200000000002;  // all its digits
+  scene.box.width = 140.30200000000002;  // with all its digits
   const State reference = run_reference(scene, initial_state(scene));
   EXPECT_EQ(reference.counters.collisions, 1U);
   for (const int threads : {2, 3}) {
@@ -317,7 +320,7 @@ TEST(HaloWindows, KnowADiskAtTheHalosEdgeOnBothSidesOfAPeriod) {
   }
 }
 
-// Two lattices so dense that all disks together begin too many paths in a window, but neither of the parts does.
+// Two lattices so dense that all disks together start too many paths in a window, but those of neither part alone do.
 TEST(HaloWindows, AreCrowdedAsOneQueueIs) {
   const auto lattice = [](int left, int right) {
     return fmt::format(
@@ -335,7 +338,7 @@ TEST(HaloWindows, AreCrowdedAsOneQueueIs) {
   EXPECT_EQ(state_hash(in_parts->state().disks), state_hash(one_queue->state().disks));
 }
 
-// A disk a hundred times as fast as the others flies through parts in a window.
+// A disk a hundred times as fast as the others flies through several parts in a window.
 TEST(LongHaloWindows, WithAProjectile) {
   const std::string projectile =
       "[[disks]]\ncount = 1\npositions = [[50, 50]]\nvelocities = [[7, 99]]\nradius = 0.5\nmass = 1\n";
@@ -346,7 +349,7 @@ TEST(LongHaloWindows, WithAProjectile) {
   }
 }
 
-// Of three by three parts, those in the other two corners would have no disk.
+// With three by three parts those in the other two corners would have no disks.
 TEST(HaloWindows, AreStripsWhereDisksCrowdInTwoCorners) {
   const auto crowd = [](int low, int high) {
     return fmt::format(
@@ -360,7 +363,7 @@ TEST(HaloWindows, AreStripsWhereDisksCrowdInTwoCorners) {
   EXPECT_EQ(tally.done, 8);
 }
 
-// Ten times as large as the others, it comes to a part whose lists were built for small disks.
+// A disk ten times as large as the others comes to a part whose lists were built for small disks.
 TEST(HaloWindows, TakeAGiantThatComesFromAnotherPart) {
   for (const int height : {9, 12, 14, 15, 16, 18, 20}) {
     SCOPED_TRACE(height);
@@ -383,7 +386,7 @@ std::vector<std::tuple<double, DiskId, DiskId>> in_order(const std::vector<DiskC
   return all;
 }
 
-// Frames within a window, and its collisions, are those of one queue.
+// Frames within a window, and its collisions, must be those of one queue.
 void expect_paths_of_one_queue(const std::string& physics) {
   const Scene scene = make_scene({100, 100, "periodic", physics, random_disks(5000, mixed), 1000, ""});
   const State initial = initial_state(scene);

@@ -1,5 +1,5 @@
-// Andersen's thermostat in an exact run kicks some disks, and what was predicted of the others stays: the bits of an
-// engine that predicts all of them anew.
+// In an exact run Andersen's thermostat kicks some disks, and predictions for the others are kept: the bits must be
+// those of an engine that predicts all disks anew.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ struct Gas {
   std::string radius = "0.5";
   std::string physics = "";
   std::string sides = "periodic";
-  double share = 0.1;  // of the disks that a kick chooses
+  double share = 0.1;  // of the disks chosen by a kick
 };
 
 constexpr double dt = 0.02;
@@ -59,7 +59,7 @@ TEST(KicksOfSome, HaveTheReferencesBits) {
   }
 }
 
-// Many of the disks are in the halo of another part.
+// Many of the disks are in the halo of the other part.
 TEST(KicksOfSome, InPartsHaveTheBitsOfOneQueue) {
   const Scene scene = scene_of({.disks = 6000, .share = 0.05});
   const State start = initial_state(scene);

@@ -1,6 +1,6 @@
-// Images above a sheared box, and sides that move, are where the time of the run says. That is rounded, late in a run
-// by far more than coordinates are: pairs across the border that approach slowly touch windows earlier or later than
-// they were first predicted, and disks touch a side that they were to miss.
+// The positions of images above a sheared box, and of moving sides, follow from the time of the run. Late in a run its
+// rounding is much coarser than that of coordinates: pairs across the border that approach slowly touch some windows
+// earlier or later than first predicted, and disks touch a side that they should miss.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,8 +25,8 @@ Scene sheared_scene() {
   return scene;
 }
 
-// Disks that go nearly with the flow, and pairs of one below the top and one above the bottom, whose image above comes
-// towards the first one so slowly that they touch one after the other.
+// Disks that move nearly with the flow, and pairs of a disk below the top and one above the bottom. The image of the
+// latter approaches the former so slowly that the pairs touch one after the other.
 State slow_pairs(const Scene& scene, double time, double approach) {
   constexpr int pairs = 5, rows = 10;
   const double offset = box_at(scene.box, time).shear.offset;
@@ -48,7 +48,7 @@ State slow_pairs(const Scene& scene, double time, double approach) {
   return state;
 }
 
-// Both engines, window by window; until: the run's end.
+// Compares both engines window by window. until: the end of the run.
 void expect_bits_of_reference(Scene scene, const State& start, double until, Count least_contacts) {
   scene.run.t_end = until;
   const auto reference = make_reference_engine(scene, start);
@@ -76,8 +76,9 @@ TEST(LateTimes, PairsAcrossTheBorderOfAShearTouchWhenTheReferenceSays) {
   }
 }
 
-// The bottom rises ever more slowly, in a parabola that begins at the start. Disks are as fast as it is when it comes
-// nearest to them, all but to their edges or a little beyond. One far above is so fast that windows are short.
+// The bottom rises and slows down, in a parabola from the start. Disks have its speed at the time when it comes nearest
+// to them, and then it just reaches their edges, or comes a little further. One disk far above is so fast that windows
+// are short.
 State passed_by_the_bottom(const Scene& scene, double time, double furthest) {
   constexpr int disks = 45;
   const SideMotion& bottom = scene.box.motions[static_cast<std::size_t>(Side::bottom)];
@@ -104,14 +105,15 @@ TEST(LateTimes, DisksTouchASideThatMovesWhereTheReferenceSays) {
   }
 }
 
-// Where a disk is that bounces between walls at `low` and `high`, after some time.
+// The position, after some time, of a disk that bounces between walls at `low` and `high`.
 double folded(double place, double speed, double low, double high, double time) {
   const double room = high - low;
   const double way = std::fmod(place - low + speed * time, 2.0 * room);
   return low + (way <= room ? way : 2.0 * room - way);
 }
 
-// A window lasts as long as the clock goes on, in whole units of its last place: disks are where that time says.
+// A window lasts as long as the clock advances, in whole units of the clock's last place: disks must be where that time
+// puts them.
 TEST(LateTimes, ADiskIsWhereItsPathHasBroughtIt) {
   for (const double late : {0.0, 1e6, 1e9, 1e12}) {
     const double span = 4096.0;

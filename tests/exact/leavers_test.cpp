@@ -1,6 +1,6 @@
-// Disks that leave an exact run through sinks are taken out of the lists that are there when the next window starts, as
-// frames of the last one need them until then: the reference's bits, in such frames too, and where a program changes
-// disks between two windows.
+// Disks that leave an exact run through sinks stay in the lists until the next window starts, since frames of the last
+// window need them. The bits must be those of the reference, also in such frames, and if a program changes disks
+// between two windows.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -43,7 +43,7 @@ std::vector<Met> sorted_contacts(const Engine& engine) {
   return met;
 }
 
-// After a step: the states, the disks half way through it, and who met in it.
+// Compares, after a step, the states, the disks in the middle of the step, and the pairs that met in it.
 void expect_same(const Engine& engine, const Engine& reference, double start) {
   ASSERT_EQ(engine.state().time, reference.state().time);
   ASSERT_EQ(state_hash(engine.state().disks), state_hash(reference.state().disks)) << "at t = " << start;
@@ -55,7 +55,7 @@ void expect_same(const Engine& engine, const Engine& reference, double start) {
   ASSERT_EQ(sorted_contacts(engine), sorted_contacts(reference));
 }
 
-// Every disk near a place, unless the engine has no cells at hand.
+// A search must find every disk near a place, unless the engine has no cells at hand.
 void expect_found(Engine& engine, Vec2 place) {
   constexpr double reach = 3.0;
   const Disks& d = engine.state().disks;
@@ -95,7 +95,7 @@ TEST(Leavers, HaveTheReferencesBitsWhereBrownianIntervalsBegin) {
   expect_bits_of_reference(leaking_gas("0.5", "diffusion = 1.0\n", 4.0, "dt = 0.05\n"), disks_at_start - 100);
 }
 
-// What is known of the leavers goes with the lists.
+// When the lists are freed, the record of disks that left goes with them.
 TEST(Leavers, HaveTheReferencesBitsWhereMemoryIsGivenBackBetweenWindows) {
   const Scene scene = leaking_gas("0.5", "", 6.0);
   const auto reference = make_reference_engine(scene, initial_state(scene));
@@ -110,7 +110,7 @@ TEST(Leavers, HaveTheReferencesBitsWhereMemoryIsGivenBackBetweenWindows) {
   EXPECT_GT(engine->state().counters.removed, 50U);
 }
 
-// Of the reference, each change makes a new engine of the changed state.
+// For the reference each change makes a new engine from the changed state.
 TEST(Leavers, MayBeChangedAroundBetweenWindows) {
   const Scene scene = leaking_gas("0.5");
   auto reference = make_reference_engine(scene, initial_state(scene));

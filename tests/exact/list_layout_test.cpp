@@ -1,4 +1,4 @@
-// How neighbour lists are laid out: where disks are stored, and the room that lists leave.
+// The layout of neighbour lists: the order in which disks are stored, and the margins of lists.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ Disks random_disks(test::Draws& draws, std::size_t n, double side, double smalle
   return d;
 }
 
-// Disks of all sizes are stored where their neighbours are: hardly any offset needs more than 16 bits, but those across
+// Disks of all sizes are stored near their neighbours: hardly any offset needs more than 16 bits, except those across
 // the border along y.
 TEST(ListLayout, OfManySizesHasSmallOffsets) {
   test::Draws draws(12);
@@ -43,7 +43,7 @@ TEST(ListLayout, OfManySizesHasSmallOffsets) {
   EXPECT_LT(far, listed / 50);
 }
 
-// What radii may grow by is taken off the distance after which disks are relisted, unless that leaves too little.
+// The growth of radii is subtracted from the distance after which disks are relisted, unless too little would be left.
 TEST(ListLayout, LeavesRoomForGrowth) {
   test::Draws draws(11);
   Domain box;
@@ -67,8 +67,8 @@ TEST(ListLayout, LeavesRoomForGrowth) {
   EXPECT_EQ(lists.relist_distance_elsewhere().length, lists.skin());
 }
 
-// What comes to a part may be a little larger than all that it had; a giant elsewhere in the box makes no search
-// longer.
+// A disk that comes to a part may be a little larger than all the part had before; a giant elsewhere in the box must
+// not lengthen searches.
 TEST(ListLayout, TakesUpDisksALittleLarger) {
   test::Draws draws(13);
   Domain box;

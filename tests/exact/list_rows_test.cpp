@@ -1,5 +1,5 @@
-// The rows of the neighbour lists: what does not fit in a row lies elsewhere, and stays a neighbour whatever goes
-// first.
+// The rows of the neighbour lists: neighbours that do not fit into a row are stored elsewhere, and remain neighbours
+// whichever are removed first.
 #include "parallel/exact/list_rows.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ std::vector<std::uint32_t> list_of(const ListRows& rows, std::uint32_t i) {
   return list;
 }
 
-// Disk 0 and all others list each other.
+// Disk 0 and all the others list each other.
 ListRows star(std::uint32_t disks) {
   ListRows rows;
   rows.begin(disks, 1);
@@ -34,7 +34,7 @@ ListRows star(std::uint32_t disks) {
   return rows;
 }
 
-// Once all that lay in the row are gone, the others are still to be found, and to be taken out.
+// When all neighbours in the row are gone, those stored elsewhere must still be found, and be removable.
 TEST(ListRows, WhatDidNotFitInARowOutlivesIt) {
   constexpr std::uint32_t disks = ListRows::row_capacity + 9;
   for (const bool from_the_front : {true, false}) {
@@ -52,8 +52,8 @@ TEST(ListRows, WhatDidNotFitInARowOutlivesIt) {
   }
 }
 
-// Some disks of many, from three places of the storage. Offsets between two successive places are about the largest and
-// the least of 16 bits; those between the first place and the last have, but for higher bits, the numbers of offsets
+// Some of many disks, from three places of the storage. Offsets between two successive places are about the largest and
+// the smallest that fit into 16 bits; those between the first and the last place have the same lower 16 bits as offsets
 // within a place.
 class FewOfMany {
  public:
@@ -69,7 +69,7 @@ class FewOfMany {
 
   static std::uint32_t disk(std::uint32_t k) { return first_of_place[k / a_place] + k % a_place; }
 
-  // Gives the k-th of them this list, by their numbers.
+  // Gives the k-th of these disks this list, by their numbers.
   void replace(std::uint32_t k, const std::set<std::uint32_t>& near) {
     for (const std::uint32_t j : lists_[k]) lists_[j].erase(k);
     for (const std::uint32_t j : near) lists_[j].insert(k);
@@ -84,7 +84,8 @@ class FewOfMany {
   }
 
  private:
-  // Is what the kernel reads beyond the ends of rows in the list, too? And is it said whether there are wide rows?
+  // Is the padding that the kernel reads beyond the ends of rows from the list as well? And is the mark of wide rows
+  // right?
   bool is_padded(std::uint32_t i, const std::vector<std::uint32_t>& list) const {
     bool padded = true;
     const auto see = [&](const auto* offset, std::uint32_t count) {
@@ -105,10 +106,10 @@ class FewOfMany {
   }
 
   ListRows rows_;
-  std::vector<std::set<std::uint32_t>> lists_;  // as they should be
+  std::vector<std::set<std::uint32_t>> lists_;  // the expected lists
 };
 
-// -32768 has 16 bits, and the offset back has not.
+// -32768 fits into 16 bits, but the offset in the other direction does not.
 TEST(ListRows, AnOffsetThatFitsMayNotFitTheOtherWay) {
   FewOfMany rows;
   constexpr std::uint32_t low = 0, high = FewOfMany::a_place, beside = high + 1;
@@ -120,8 +121,8 @@ TEST(ListRows, AnOffsetThatFitsMayNotFitTheOtherWay) {
   for (const std::uint32_t k : {low, high, beside}) EXPECT_TRUE(rows.holds(k)) << k;
 }
 
-// Lists change a little each time, as they do when disks are relisted, or become others. They are short, so that they
-// mostly lie in rows, and as long as a row, and longer. ctest runs this for all kernels.
+// Lists change a little each time, as when disks are relisted, or are replaced. The greatest length is such that lists
+// fit into rows, or just fill one, or are longer. ctest runs this for all kernels.
 TEST(ListRows, AreAsTheyWereReplaced) {
   for (const std::uint32_t longest : {6U, ListRows::row_capacity, 40U}) {
     FewOfMany rows;
@@ -129,7 +130,7 @@ TEST(ListRows, AreAsTheyWereReplaced) {
     const auto below = [&](std::size_t n) { return static_cast<std::uint32_t>(random() % n); };
     for (int turn = 0; turn < 600; ++turn) {
       const std::uint32_t k = below(FewOfMany::few);
-      // Mostly disks of the same place.
+      // Most neighbours are in the same place.
       const std::uint32_t own = k / FewOfMany::a_place;
       const std::uint32_t place = below(6) != 0 ? own : below(3);
       std::set<std::uint32_t> near = rows.list(k);

@@ -1,4 +1,4 @@
-// Places in the box as whole numbers, and back.
+// The conversion of places in the box to whole numbers and back.
 #include "parallel/exact/listed_box.hpp"
 
 #include <gtest/gtest.h>
@@ -57,12 +57,12 @@ TEST(ListedBox, DepthIsThatOfThePlaceWhereADiskIsListed) {
   const ListedBox box = half_periodic();
   EXPECT_EQ(box.depth_beyond_border({23.0, 11.0}, {3.0, 9.0}, 2.0).x, 3.0);
   EXPECT_EQ(box.depth_beyond_border({-3.0, 5.0}, {17.0, 5.0}, 2.0).x, 3.0);
-  EXPECT_EQ(box.depth_beyond_border({23.0, 11.0}, {3.0, 9.0}, 3.5).x, 0.0) << "near the border";
-  EXPECT_EQ(box.depth_beyond_border({3.0, 5.0}, {3.0, 5.0}, 2.0).x, 0.0) << "in the box";
+  EXPECT_EQ(box.depth_beyond_border({23.0, 11.0}, {3.0, 9.0}, 3.5).x, 0.0) << "listed nearer to the border than 3.5";
+  EXPECT_EQ(box.depth_beyond_border({3.0, 5.0}, {3.0, 5.0}, 2.0).x, 0.0) << "within the box";
   EXPECT_EQ(box.depth_beyond_border({23.0, 11.0}, {3.0, 9.0}, 0.5).y, 0.0) << "walls are no border";
 }
 
-// A box of width 1, periodic across, in which pairs of disks lie far from each other.
+// A box of width 1, periodic along x, with pairs of disks far from each other.
 Scene long_scene(double height, bool periodic_y) {
   Scene scene = test::scene_of(Method::exact, 1.0, height, 0.0, 5.0);
   test::set_sides(scene.box, SideKind::periodic, periodic_y ? SideKind::periodic : SideKind::wall);
@@ -79,7 +79,7 @@ State pairs_in(const Scene& scene, int pairs) {
   return test::state_of(scene, list);
 }
 
-// A disk that is out of its skin as soon as it is listed would be listed again for ever.
+// A disk that leaves its skin as soon as it is listed would be relisted for ever.
 TEST(ListedBox, HasRoomForASkinUnlessItIsFarLongerThanItsPeriod) {
   EXPECT_TRUE(can_list_in(test::box_of(1.0, 1e10)));
   EXPECT_TRUE(can_list_in(test::box_of(1.0, 1e10, test::Periodic::y)));

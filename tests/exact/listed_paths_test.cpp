@@ -1,7 +1,6 @@
-// While the neighbour lists say that a disk stays near where it is listed it does so on all of its path, straight, or
-// bent by gravity or by the frame that goes with a shear, and does not come back to it round a periodic box; and disks
-// that may touch meanwhile list each other. Otherwise contacts of a dilute system, whose disks fly further than across
-// a list, are lost.
+// While a disk stays listed it is near its listed position on its whole path, straight, or bent by gravity or in the
+// frame of a shear, and does not return to it around a periodic box; and disks that may touch meanwhile list each
+// other. Otherwise contacts would be lost in a dilute system, whose disks fly further than their lists reach.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +18,7 @@ constexpr std::size_t disks = 200;
 constexpr double width = 40.0, height = 30.0, middle = 0.5 * height;
 constexpr int paths_a_disk = 20;
 
-// Lists of a dilute gas.
+// The lists of a dilute gas.
 struct Listed {
   Listed(const Domain& in_box, double start) : box(in_box) {
     test::Draws draws(17);
@@ -52,7 +51,7 @@ double nearest(double d, double period) {
   return d - period * std::round(d / period);
 }
 
-// Where in the frame of the lists a disk is; tilt: of that frame, 0 where there is no shear.
+// The position of a disk in the frame of the lists. tilt: of that frame; 0 without shear.
 Vec2 in_frame(Vec2 at, double tilt) {
   return {at.x - tilt * (at.y - middle), at.y};
 }
@@ -60,8 +59,8 @@ Vec2 from_frame(Vec2 at, double tilt) {
   return {at.x + tilt * (at.y - middle), at.y};
 }
 
-// Paths that begin and end near the edge of what a disk may leave its listed position by. The ways that lists tell how
-// long it stays there are asked, and the path is looked at in steps.
+// Paths that start and end near the largest distance that a disk may have from its listed position. The functions that
+// say how long it stays listed are compared with the path, which is sampled in steps.
 class PathsNearTheEdge {
  public:
   PathsNearTheEdge(const Domain& box, double start, const Gravity& g) : listed_(box, start), gravity_(g), draws_(4) {}
@@ -80,7 +79,7 @@ class PathsNearTheEdge {
     return box.shear.acts() ? box.shear.offset / height + box.shear.rate * t : 0.0;
   }
 
-  // A path from one place in the frame, at time 0, to another at time t.
+  // A path from one place in the frame at time 0 to another at time t.
   PathSegment path_between(Vec2 first, Vec2 last, double t) const {
     const Vec2 a = from_frame(first, tilt_at(0.0)), b = from_frame(last, tilt_at(t));
     return {0.0, a.x, a.y, (b.x - a.x) / t + 0.5 * gravity_.left * t, (b.y - a.y) / t + 0.5 * gravity_.down * t};
@@ -112,7 +111,7 @@ class PathsNearTheEdge {
     const double t = draws_.in(0.05, 2.0);
     const Vec2 first = edge(angle);
     Vec2 last = edge(angle + draws_.in(-1.0, 1.0));
-    // Or once round the box.
+    // In some cases the path goes around the box.
     if (draws_.in(0.0, 1.0) < 0.1) last.x += draws_.in(-1.0, 1.0) < 0.0 ? -width : width;
     if (draws_.in(0.0, 1.0) < 0.1) last.y += draws_.in(-1.0, 1.0) < 0.0 ? -height : height;
     const PathSegment path = path_between(first, last, t);
@@ -156,7 +155,7 @@ TEST(ListedPaths, StayNearInTheFrameOfAShear) {
   }
 }
 
-// Two disks that touch are up to so many times as far from each other in the frame, until the lists are strained.
+// The largest factor by which the distance of two touching disks may grow in the frame before the lists are strained.
 double most_stretch(double tilt, double strain) {
   double most = 0.0;
   for (double by = -strain; by <= strain; by += strain / 16.0) {

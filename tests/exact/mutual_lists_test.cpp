@@ -1,5 +1,5 @@
-// Of two disks each lists the other, or neither does: whichever of them begins a new path predicts their contact. Disks
-// that are relisted while their neighbours belong to other threads must not leave one of the two lists behind.
+// Of two disks either each lists the other, or neither does: whichever of them starts a new path predicts their
+// contact. This must hold when disks are relisted while their neighbours belong to other threads.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace {
 
 struct Seen {
   int slices = 0;
-  int one_sided = 0;  // pairs of which one lists the other, and that one not it
+  int one_sided = 0;  // entries of lists without the opposite entry
 };
 
 bool lists(const NeighbourLists& all, std::uint32_t i, std::uint32_t j) {

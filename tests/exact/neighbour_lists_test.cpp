@@ -1,5 +1,5 @@
-// The neighbour lists of the exact engine: which disks are in them, before and after disks were relisted, and their
-// kernel.
+// The neighbour lists of the exact engine: the disks in them, before and after disks are relisted, and the kernel that
+// finds them.
 #include "parallel/exact/neighbour_lists.hpp"
 
 #include <gtest/gtest.h>
@@ -35,8 +35,8 @@ double apart(double a, double b, double period, bool periodic) {
   return periodic ? std::min(d, period - d) : d;
 }
 
-// Disks whose listed positions are within r_i + r_j + 2 skin list each other, once; in all-pairs mode all do. Listed
-// positions are those that were given, to within rounding.
+// Disks whose listed positions are within r_i + r_j + 2 skin list each other, once; in all-pairs mode all disks do.
+// Listed positions are the given ones, to within rounding.
 void expect_complete(const NeighbourLists& lists, const Disks& d, const std::vector<Vec2>& given, const Domain& box) {
   std::vector<Vec2> place;
   for (std::uint32_t i = 0; i < d.size(); ++i) {
@@ -62,15 +62,16 @@ void expect_complete(const NeighbourLists& lists, const Disks& d, const std::vec
   }
 }
 
-// The distance of a place from the nearest border along a period.
+// The distance of a place from the nearest periodic border.
 double depth_of(Vec2 at, const Domain& box) {
   const double in_x = box.periodic_x() ? std::min(at.x, box.width - at.x) : HUGE_VAL;
   const double in_y = box.periodic_y() ? std::min(at.y, box.height - at.y) : HUGE_VAL;
   return std::min(in_x, in_y);
 }
 
-// While disks are within the skin of where they are listed: a list that says that no image is near has no disk that can
-// have come across a border, and one that does not name a wall is of a disk that cannot touch it.
+// Checks the marks of lists, which must hold while disks are within the skin of their listed positions: if a list is
+// marked as having no images, none of its disks can have crossed a border, and if it does not name a wall, the disk
+// cannot touch that wall.
 void expect_marks(const NeighbourLists& lists, const Disks& d, const Domain& box) {
   const double skin = lists.skin() * (1.0 - 1e-9);
   int inside = 0;
@@ -137,9 +138,9 @@ bool lists_disk(const NeighbourLists& lists, std::uint32_t i, std::uint32_t j) {
   return found;
 }
 
-// Pairs of disks whose listed positions are as far from each other as lists reach, a few parts in 10^4 more or less, as
-// slots and single precision have it. Those within the reach list each other, and of the others both do or neither.
-// Returns how many did.
+// Pairs of disks whose listed positions are about as far apart as lists reach, within a few parts in 10^4, the
+// precision of slots and of single precision. Pairs within the reach must list each other; of the others both disks do
+// or neither does. Returns the number that did.
 int expect_lists_at_reach(const ListLayout& layout, bool mixed, bool periodic, double unit) {
   constexpr std::size_t n = 400;
   constexpr int pairs = 12000;
@@ -163,8 +164,8 @@ int expect_lists_at_reach(const ListLayout& layout, bool mixed, bool periodic, d
     Vec2 first{draws.in(0.0, box.width), draws.in(0.0, box.height)};
     double angle = draws.in(0.0, 2.0 * std::numbers::pi);
     if (k % 4 != 0) {
-      // About along an axis a coordinate alone tells which cells are searched. The reach ends at a border of cells,
-      // however many of them there are.
+      // Near an axis a single coordinate decides which cells are searched. The reach is made to end at a border of
+      // cells, for various numbers of cells.
       const double cells = 2.0 + static_cast<double>(draws.bits() % 32);
       const double share = static_cast<double>(draws.bits() % 32) / cells + draws.in(-5e-6, 5e-6);
       const int quarter = k % 4;
@@ -186,7 +187,7 @@ int expect_lists_at_reach(const ListLayout& layout, bool mixed, bool periodic, d
     const bool in_list = lists_disk(lists, i, j);
     EXPECT_TRUE(in_list || !within) << "pair " << k << ": " << dx << ", " << dy << " of " << reach;
     EXPECT_EQ(in_list, lists_disk(lists, j, i)) << "pair " << k << ": " << dx << ", " << dy << " of " << reach;
-    // Whichever is listed last.
+    // The result must not depend on which disk is listed last.
     EXPECT_TRUE(lists.relist(i, first, d, ListRegion{}, found));
     EXPECT_EQ(in_list, lists_disk(lists, i, j)) << "pair " << k << ": " << dx << ", " << dy << " of " << reach;
     listed += in_list ? 1 : 0;
@@ -204,8 +205,8 @@ TEST(NeighbourLists, AreMutualAtTheEndOfTheirReach) {
   }
 }
 
-// For a newcomer at any place all that it may overlap are named, for a rectangle all whose centres may be in it, while
-// disks are within the skin of where they are listed.
+// While disks are within the skin of their listed positions, the lists must name all disks that a newcomer at any place
+// may overlap, and all disks whose centres may be in a rectangle.
 TEST(NeighbourLists, NameAllThatMayBeAtAPlace) {
   for (const bool mixed : {false, true}) {
     test::Draws draws(21);
@@ -235,8 +236,8 @@ TEST(NeighbourLists, NameAllThatMayBeAtAPlace) {
   }
 }
 
-// Disks at the bottom of a tall box list their neighbours, not all of the pile: about pi 2.05^2, cutoffs being up
-// to 2.05 spacings of where they are.
+// Disks at the bottom of a tall box list their neighbours, not the whole pile: about pi 2.05^2 of them, since cutoffs
+// are at most 2.05 spacings of the place where they are.
 TEST(NeighbourLists, OfAPileInATallBoxAreAsLongAsOfAGas) {
   constexpr std::size_t n = 1000;
   for (const double height : {40.0, 400.0, 40000.0}) {
@@ -258,8 +259,8 @@ TEST(NeighbourLists, OfAPileInATallBoxAreAsLongAsOfAGas) {
   }
 }
 
-// In a sheared box listed positions go with the flow: a disk that does so too, wherever it is, need not be listed again
-// until the lists are built anew.
+// In a sheared box listed positions move with the flow: a disk that does so, too, need not be relisted, wherever it is,
+// until the lists are rebuilt.
 TEST(NeighbourLists, GoWithTheFlow) {
   constexpr std::size_t n = 1000;
   for (const double rate : {0.3, -20.0}) {
@@ -275,7 +276,7 @@ TEST(NeighbourLists, GoWithTheFlow) {
     NeighbourLists lists;
     lists.follow_flow(box, start, 0.0);
     lists.build(d, box, {EngineMode::single_queue, 0, 0, 1.0, false}, Executor(1));
-    const double until = 0.24 / std::abs(rate);  // strains up to 1/4 are allowed for
+    const double until = 0.24 / std::abs(rate);  // strains up to 1/4 are allowed
     ASSERT_FALSE(lists.is_strained(start + until));
     for (std::uint32_t i = 0; i < n; ++i) {
       const PathSegment path{0.0, d.x[i], d.y[i], box.shear.flow(d.y[i], box.height), 0.0};
@@ -285,7 +286,7 @@ TEST(NeighbourLists, GoWithTheFlow) {
   }
 }
 
-// A disk whose new list would reach beyond the region is not relisted, and nothing changes.
+// A disk whose new list would reach beyond the region is not relisted, and its list does not change.
 TEST(NeighbourLists, KeepToTheirRegion) {
   test::Draws draws(5);
   Domain box;
@@ -318,8 +319,8 @@ TEST(NeighbourLists, KeepToTheirRegion) {
   EXPECT_GT(listed, refused);
 }
 
-// As far from each other as the cutoff, where its last bits tell: a disk that lists another one is listed by it. Sums
-// of three floats depend on their order.
+// Distances equal to the cutoff, where the last bits decide: if one disk lists the other, the other must list it. The
+// sum of three floats depends on their order.
 TEST(ListKernel, OfTwoDisksEachFindsTheOther) {
   test::Draws draws(9);
   int near = 0;

@@ -1,5 +1,5 @@
-// Disks that sources send into an exact run are taken up by the lists that are there: the reference's bits, from an
-// empty box on, whatever their radii.
+// Disks emitted by sources into an exact run are added to the existing lists: the bits are those of the reference, from
+// an empty box on, and for any radii.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -43,7 +43,7 @@ Scene scene_with(const std::vector<Source>& sources) {
   return scene;
 }
 
-// Windows end at the emissions, in both engines; both have the same disks after each of them.
+// In both engines windows end at the emissions; after each of them both must have the same disks.
 void expect_bits_of_reference(const Scene& scene, const State& start, std::size_t disks_at_least) {
   const auto reference = make_reference_engine(scene, start);
   const auto one = make_parallel_engine(scene, start, {1});
@@ -67,14 +67,15 @@ TEST(Newcomers, HaveTheReferencesBitsFromAnEmptyBoxOn) {
   expect_bits_of_reference(scene, test::state_of(scene, {}), 400);
 }
 
-// The larger ones are larger than all before, at first; then each comes where smaller and larger ones are known.
+// At first the larger ones are larger than all disks so far; then each comes where smaller and larger disks are known.
 TEST(Newcomers, HaveTheReferencesBitsWhateverTheirRadii) {
   const Scene scene = scene_with({gas_from(20.0, {2.0, 2.0}, {58.0, 38.0}, one_of({0.5, 0.2})),
                                   gas_from(7.0, {2.0, 2.0}, {58.0, 38.0}, one_of({0.05, 1.1}))});
   expect_bits_of_reference(scene, test::state_of(scene, {}), 250);
 }
 
-// Larger than all of a gas that is listed already, or of another radius where all are equal.
+// The newcomers are larger or smaller than all disks of a gas already listed, or differ from the common radius of its
+// disks.
 TEST(Newcomers, HaveTheReferencesBitsWhereTheGasHasOtherRadii) {
   for (const bool mixed : {false, true}) {
     for (const double radius : {0.1, 2.5}) {
@@ -90,8 +91,9 @@ TEST(Newcomers, HaveTheReferencesBitsWhereTheGasHasOtherRadii) {
   }
 }
 
-// A source whose corner is full, and one that has room: a disk of the second one gets the id that the first has tried.
-// Where a window is given up, and begun again by this engine or another one, the first tries no other id at that time.
+// One source's corner is full, the other source has room: a disk of the second gets the id that the first has tried. If
+// a window is given up and started again, by this engine or another, the first source must try no other id at that
+// time.
 TEST(Newcomers, ComeOnceIntoAWindowThatIsBegunTwice) {
   const Scene scene = scene_with(
       {gas_from(20.0, {1.0, 1.0}, {5.0, 5.0}, constant(0.5)), gas_from(20.0, {8.0, 8.0}, {59.0, 39.0}, constant(0.5))});
@@ -101,7 +103,7 @@ TEST(Newcomers, ComeOnceIntoAWindowThatIsBegunTwice) {
   while (undisturbed->state().time < scene.run.t_end) {
     undisturbed->step();
     const State& right = undisturbed->state();
-    // A new engine asks at its first event.
+    // A new engine calls its watch at its first event.
     const auto engine = make_parallel_engine(scene, now, {1});
     engine->set_watch([] { return false; });
     engine->step();

@@ -1,4 +1,4 @@
-// Which parts a disk may come to before it is listed again: each one whose rectangle is within reach, round the box.
+// The parts that a disk may come to before it is relisted: those whose rectangle is within reach, across periods, too.
 #include "parallel/exact/part_ends.hpp"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ BoxCut cut_of(std::size_t x, std::size_t y, bool periodic) {
   return {axis_of(x, periodic), axis_of(y, periodic), 4.0};
 }
 
-// Is anything of the piece, or of an image of it, within reach of a coordinate?
+// Is a point of the piece, or of its images, within reach of a coordinate?
 bool is_near(const AxisCut& axis, std::size_t piece, double c, double reach) {
   for (const double turn : {-side, 0.0, side}) {
     if (turn != 0.0 && !axis.periodic) continue;
@@ -51,7 +51,7 @@ struct Noted {
   OtherParts others;
 };
 
-// Listed in the middle of its skin of 0.9; its radius is 0.3.
+// Notes a disk of radius 0.3, listed in the middle of its skin of 0.9.
 Noted note(const BoxCut& cut, std::size_t part, Vec2 at, std::uint8_t known_to) {
   DiskRecord disk;
   disk.radius = 0.3;
@@ -61,7 +61,7 @@ Noted note(const BoxCut& cut, std::size_t part, Vec2 at, std::uint8_t known_to) 
   return noted;
 }
 
-// At each place of a part, and somewhat beyond its ends.
+// Visits places in a part, and somewhat beyond its ends.
 template <class Visit>
 void for_places(const BoxCut& cut, std::size_t part, const Visit& visit) {
   const auto low = [](const AxisCut& axis, std::size_t piece) { return axis.low(piece) - 2.05; };
@@ -90,7 +90,7 @@ TEST(PartEnds, NoteEachPartThatADiskMayReach) {
   }
 }
 
-// The window is void where one of them has no such ghost.
+// The window is void if one of these parts does not have the disk as a ghost.
 TEST(PartEnds, AskWhetherEachOfThemHasTheDisk) {
   const BoxCut cut = cut_of(3, 3, true);
   for_places(cut, 4, [&](Vec2 at) {
@@ -103,7 +103,7 @@ TEST(PartEnds, AskWhetherEachOfThemHasTheDisk) {
   });
 }
 
-// Of five by five parts, the one in the middle knows nothing of those two pieces away.
+// Of five by five parts, the one in the middle has no data of parts two pieces away.
 TEST(PartEnds, AreLeftForGoodWhereAThirdPartBegins) {
   const BoxCut cut = cut_of(5, 5, true);
   for (const double beyond : {18.0, 30.0, 42.0}) {
@@ -116,10 +116,10 @@ TEST(PartEnds, AreLeftForGoodWhereAThirdPartBegins) {
   }
 }
 
-// Third parts begin where the pieces next to this one end, however wide each of them is.
+// Third parts begin where the neighbouring pieces end, for any widths.
 TEST(PartEnds, AreLeftForGoodBehindPiecesOfAnyWidth) {
   AxisCut axis{true, side, {0.0, 10.0, 24.0, 30.0, 50.0, side}};
-  const PartEnds ends = BoxCut{axis, axis_of(1, true), 4.0}.ends_of(2);  // from 24 to 30
+  const PartEnds ends = BoxCut{axis, axis_of(1, true), 4.0}.ends_of(2);  // the piece from 24 to 30
   DiskRecord disk;
   disk.radius = 0.3;
   OtherParts others{0xff, 0};
@@ -127,7 +127,7 @@ TEST(PartEnds, AreLeftForGoodBehindPiecesOfAnyWidth) {
   for (const double at : {11.1, 48.9}) EXPECT_FALSE(ends.note_listing({at, 5.0}, 0.9, disk, others)) << at;
 }
 
-// A disk that is listed again, elsewhere, may have been met where it was before.
+// A disk that is relisted elsewhere may have met a disk where it was before.
 TEST(PartEnds, KeepInMindWhereADiskMayHaveBeen) {
   const PartEnds ends = cut_of(3, 3, true).ends_of(4);
   DiskRecord disk;
@@ -139,7 +139,7 @@ TEST(PartEnds, KeepInMindWhereADiskMayHaveBeen) {
   EXPECT_EQ(others.may_reach, ends.neighbours.bit_of(3) | ends.neighbours.bit_of(7));
 }
 
-// What a ghost's owner does not say of it does not matter.
+// A ghost is checked by its owner, so nothing is noted here.
 TEST(PartEnds, LeaveGhostsAlone) {
   DiskRecord ghost;
   ghost.progress.set(DiskProgress::ghost);
@@ -149,7 +149,7 @@ TEST(PartEnds, LeaveGhostsAlone) {
 }
 
 TEST(PartEnds, TellHowFarBeyondThemAPlaceIs) {
-  const PartEnds ends = cut_of(3, 1, true).ends_of(0);  // from 0 to 20, round the box
+  const PartEnds ends = cut_of(3, 1, true).ends_of(0);  // the piece from 0 to 20, in a periodic box
   EXPECT_DOUBLE_EQ(ends.x.beyond(23.0), 3.0);
   EXPECT_DOUBLE_EQ(ends.x.beyond(57.0), 3.0);
   EXPECT_DOUBLE_EQ(ends.x.beyond(15.0), -5.0);

@@ -1,4 +1,5 @@
-// The kernels that begin and end the paths of a window: every version gives what a disk by itself would have.
+// The kernels that begin and end the paths of a window: each version gives the same as the computation for a single
+// disk.
 #include "parallel/exact/path_kernels.hpp"
 
 #include <gtest/gtest.h>
@@ -43,7 +44,7 @@ void expect_equal(double a, double b) {
   EXPECT_EQ(std::bit_cast<std::uint64_t>(a), std::bit_cast<std::uint64_t>(b)) << a << " and " << b;
 }
 
-// Each range by itself, so that there are disks before and after it that must stay as they are.
+// Only a range of disks is processed; those before and after it must stay as they are.
 TEST(PathKernels, BeginEachPathWhereItsDiskIs) {
   test::Draws draw(3);
   for (const PathKernels& kernel : all_kernels()) {
@@ -85,7 +86,7 @@ TEST(PathKernels, BeginEachPathWhereItsDiskIs) {
   }
 }
 
-// Places on a border, one that is -0, a path that begins at the end, and a disk that is gone among them.
+// Positions on a border, one of them -0, a path that begins at the end, and a disk that is gone.
 TEST(PathKernels, EndEachPathInTheBox) {
   constexpr double gone = std::numeric_limits<double>::quiet_NaN();
   test::Draws draw(4);

@@ -1,4 +1,4 @@
-// The collision of two disks, x and y at once, against core's formula, bit by bit.
+// The collision of two disks that computes x and y together, compared with core's formula bit by bit.
 #include "parallel/exact/plain_collision.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ PathSegment drawn_path(test::Draws& draws, double far) {
 }
 
 void expect_same(const PathSegment& a, const PathSegment& b) {
-  // Signs of zero, too.
+  // The bits include the signs of zeros.
   const auto bits = [](double v) { return std::bit_cast<std::uint64_t>(v); };
   EXPECT_EQ(a.start, b.start);
   EXPECT_EQ(bits(a.x), bits(b.x));
@@ -28,12 +28,12 @@ void expect_same(const PathSegment& a, const PathSegment& b) {
   EXPECT_EQ(bits(a.vy), bits(b.vy));
 }
 
-// A restitution that depends on how two disks meet.
+// A restitution that depends on the relative motion of the two disks.
 double drawn_restitution(const Relative& r) {
   return 1.0 / (1.0 + speed_of_approach(r));
 }
 
-// Flight: as core's drift<falls> with this gravity. Returns how many collided.
+// flight: must equal core's drift<falls> with this gravity. Returns the number of collisions.
 template <bool falls, class Flight>
 int expect_bits_of_the_formula(const Gravity& gravity, const Flight& flight) {
   test::Draws draws(23);
@@ -41,7 +41,8 @@ int expect_bits_of_the_formula(const Gravity& gravity, const Flight& flight) {
   for (int round = 0; round < 2000; ++round) {
     PathSegment p = drawn_path(draws, 8.0);
     PathSegment q = drawn_path(draws, 8.0);
-    // Some that recede, some at rest against each other, some at one place; velocities of zero of both signs.
+    // Some pairs recede, some have no relative velocity, some are at one place; some velocities are zeros of both
+    // signs.
     if (round % 10 == 0) q.vx = p.vx, q.vy = p.vy;
     if (round % 50 == 0) q = p;
     if (round % 7 == 0) p.vx = -0.0, q.vy = -0.0;
@@ -69,7 +70,7 @@ TEST(PlainCollision, HasTheBitsOfTheFormula) {
   EXPECT_LT(happened, 1500);
 }
 
-// Gravity along y alone, upwards too, and any; without any, a fall is a straight path.
+// Gravity along y only, upwards, too, and in any direction. Without gravity a fall is a straight path.
 TEST(PlainCollision, HasTheBitsOfTheFormulaUnderGravity) {
   for (const Gravity& g : {Gravity(0.7), Gravity(-0.7), Gravity(-0.0, 0.7), Gravity(0.5, -0.4), Gravity(-0.5, 0.4),
                            Gravity(0.3, 0.0), Gravity(-0.3, -0.0)}) {
@@ -80,8 +81,8 @@ TEST(PlainCollision, HasTheBitsOfTheFormulaUnderGravity) {
   expect_bits_of_the_formula<false>(0.0, FreeFall(0.0));
 }
 
-// Where the inner part holds two disks, images and borders change nothing; it holds most of those that are nowhere near
-// a border, and none that is across one.
+// If the inner part contains two disks, images and borders do not matter. It contains most of the disks that are not
+// near a border, and none that is across one.
 TEST(PlainCollision, IsTheSameAsAcrossBordersInTheInnerPart) {
   test::Draws draws(24);
   for (const bool along_x : {false, true}) {

@@ -1,4 +1,4 @@
-// The prediction kernel against core's formulas, bit by bit, in every version.
+// The prediction kernel compared with core's formulas bit by bit, in every version.
 #include "parallel/exact/prediction_kernel.hpp"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ std::vector<DiskRecord> random_records(test::Draws& draws, const KernelCase& c, 
   for (std::uint32_t k = 0; k < record.size(); ++k) {
     DiskRecord& f = record[k];
     f.path = {draws.in(0.0, 1.0), draws.in(0.0, box), draws.in(0.0, box), draws.in(-2.0, 2.0), draws.in(-2.0, 2.0)};
-    // Some at rest, some on one line, one that is gone.
+    // Some disks are at rest, some are on one line, and one is gone.
     if (k % 7 == 3) f.path.vx = f.path.vy = 0.0;
     if (k % 5 == 1) f.path.y = record[0].path.y;
     if (k == 13) f.path.x = f.path.y = std::numeric_limits<double>::quiet_NaN();
@@ -45,8 +45,8 @@ struct Expected {
   bool ambiguous = false;
 };
 
-// Does rounding decide whether they touch? They overlap and are slow against each other, or pass each other at about
-// their contact distance.
+// Does rounding decide whether they touch? That is so if they overlap and are slow relative to each other, or pass each
+// other at about their contact distance.
 bool is_in_doubt(const Relative& r, double contact_distance) {
   const double cross = r.dx * r.dvy - r.dy * r.dvx;
   const double contact2 = contact_distance * contact_distance;
@@ -55,8 +55,8 @@ bool is_in_doubt(const Relative& r, double contact_distance) {
   return std::abs(discriminant) + r.speed2() * gap2 <= slow_approach * slow_approach;
 }
 
-// The first contact by the formula of core, one neighbour after the other: with the nearest image, or with any that is
-// met up to the horizon.
+// The first contact by core's formula, with one neighbour after the other: with the nearest image, or with any image
+// that is met before the horizon.
 Expected expected_contact(const std::vector<DiskRecord>& record, std::uint32_t own, const std::vector<int>& offset,
                           const Domain& box, const Gravity& g, double horizon = 0.0) {
   Expected first;
@@ -111,7 +111,7 @@ void expect_in_row(RowKernel kernel, const PredictionConstants& constants, const
   std::ranges::copy(padded(offset), row.offset);
   const FirstContact found = kernel(constants, &record[own], row);
   expect_contact(found, offset, expected, false_alarms);
-  // Of bent paths: bent_paths_test.
+  // For bent paths see bent_paths_test.
   if (!(found.time < never) || constants.down.lane[0] != 0.0 || constants.left.lane[0] != 0.0) return;
   const PathSegment& p = record[own].path;
   const double way_x = p.vx * (found.time - p.start), way_y = p.vy * (found.time - p.start);
@@ -175,7 +175,7 @@ TEST_P(PredictionKernelVersions, HaveTheBitsOfTheFormula) {
     const bool newest = round % 2 == 0;
     if (newest) record[own].path.start = 1.0;
     const std::vector<int> offset = random_offsets(draws, own);
-    // Two that are touched at the same time.
+    // Two neighbours that are touched at the same time.
     if (round % 5 == 0 && offset.size() > 1) {
       record[own + static_cast<std::uint32_t>(offset[0])] = record[own + static_cast<std::uint32_t>(offset.back())];
     }
@@ -216,12 +216,11 @@ TEST_P(PredictionKernelVersions, HaveTheBitsOfTheFormula) {
   EXPECT_GT(met, 100);
   EXPECT_GT(ambiguous, 20);
   EXPECT_LT(ambiguous, 500);
-  // A tie of two contacts before which there is another one.
+  // A tie of two contacts that come after another one may be a false alarm.
   EXPECT_LT(false_alarms, 20);
 }
 
-// Neighbours anywhere in the box, half a period away exactly among them, and flights of up to a quarter of a period
-// each.
+// Neighbours anywhere in the box, some of them exactly half a period away, and flights of up to a quarter of a period.
 TEST_P(PredictionKernelVersions, HaveTheBitsOfTheFormulaWithImagesBeyondTheNearest) {
   const KernelCase& c = GetParam();
   if (!c.periodic) return;
@@ -287,7 +286,7 @@ TEST_P(PredictionKernelVersions, HaveTheBitsOfTheFormulaInAShear) {
     const double rate = draws.in(-0.5, 0.5);
     box.shear = {rate, rate * box.height, draws.in(-6.0, 6.0)};
     std::vector<DiskRecord> record = random_records(draws, c, 10.0);
-    // Half of them near the bottom and the top.
+    // Half of the disks are near the bottom or the top.
     for (std::uint32_t k = 0; k < disks; k += 2) record[k].path.y = 0.2 * record[k].path.y + (k % 4 == 0 ? 0.0 : 8.0);
     const auto own = static_cast<std::uint32_t>(draws.bits() % disks);
     const std::vector<int> offset = random_offsets(draws, own);

@@ -1,6 +1,6 @@
-// A disk that flies round a periodic box without touching anything comes to where it was, past what it did not list
-// meanwhile. Where windows are cut short that are meant to be long, here by a source, events are predicted as far ahead
-// as once round the box: a disk that stood in the way of another one was missed.
+// A disk that flies around a periodic box without touching anything returns to its listed position, past disks that it
+// did not list meanwhile. If windows are much shorter than planned, here because of a source, events are predicted as
+// far ahead as once around the box; a disk in the way of another was once missed.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -16,12 +16,12 @@ namespace {
 
 struct Flight {
   bool along_y, falls;
-  bool followed;  // another one, 5 ahead, that it would touch once round the box
+  bool followed;  // by another disk, 5 ahead, that it would touch once around the box
 };
 
-// A hundred disks at rest on a lattice, small beside their spacing of 10. One flies along x, or y, in the middle
-// between two rows of them, but for one of the disks, which stands in its way half a period ahead. Small ones come into
-// a strip at the bottom.
+// A hundred disks at rest on a lattice, small compared with their spacing of 10. One disk flies along x or y in the
+// middle between two rows; only one of the disks is in its way, half a period ahead. Small disks are emitted into a
+// strip at the bottom.
 Scene lonely_flight(int flying, const Flight& flight) {
   std::string at, velocities;
   const int in_the_way = (flying + (flight.along_y ? 50 : 5)) % 100, ahead = (flying + 1) % 100;

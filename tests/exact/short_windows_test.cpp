@@ -1,5 +1,5 @@
-// Windows so short that few disks have an event in them: the calendar leaves out the others, but none whose event comes
-// before the window's end.
+// Windows so short that few disks have an event in them: the calendar leaves out the other disks, but none whose event
+// comes before the window's end.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int pairs = 100;
 
-// Where a disk at rest stands, which ends a window at each emission time.
+// A source whose place is taken by a disk at rest; it ends a window at each emission time.
 Source blocked_source(double window) {
   Source source;
   source.rate = 1.0 / window;
@@ -23,7 +23,7 @@ Source blocked_source(double window) {
   return source;
 }
 
-// Pair k meets head on in window k, when this share of it has passed.
+// Pair k meets head-on in window k, after this share of it.
 std::vector<Disk> pairs_that_meet(double window, double share) {
   std::vector<Disk> disks{{1.0, 1.0, 0.0, 0.0, 0.5, 1.0}};
   for (int k = 0; k < pairs; ++k) {
@@ -35,8 +35,8 @@ std::vector<Disk> pairs_that_meet(double window, double share) {
   return disks;
 }
 
-// Pairs fly along, one disk behind the other, which it comes up to by no more than this speed, at the end of the
-// second, third or fourth window: by how much each rounding at their starts shifts when, that goes as 1 / speed.
+// Pairs in which a disk follows another and gains on it with at most this speed, so that they touch at the end of the
+// second, third or fourth window. Rounding at the windows' starts shifts these contacts by times that go as 1 / speed.
 std::vector<Disk> pairs_that_creep_up(double window, double speed) {
   std::vector<Disk> disks{{1.0, 1.0, 0.0, 0.0, 0.5, 1.0}};
   for (int k = 0; k < pairs; ++k) {
@@ -72,8 +72,8 @@ TEST(ShortWindows, HaveEventsUpToTheirEnds) {
   }
 }
 
-// The source makes windows so much shorter than they are meant to be that a share of their own length is less than what
-// rounding shifts slow contacts by: kept times come earlier by a share of what windows are meant to last.
+// The source makes windows much shorter than planned, so that a share of their length is less than the shift of slow
+// contacts by rounding. Hence the margin of kept times is a share of the planned length.
 TEST(ShortWindows, HaveSlowContactsAtTheirEnds) {
   constexpr double window = 5e-5;
   for (const double speed : {3e-8, 1e-7}) {

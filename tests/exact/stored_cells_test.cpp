@@ -1,5 +1,5 @@
-// Cells of a part of the box: a disk is stored in one of them wherever it has gone, and a search of the cells round it
-// finds it there.
+// The cells stored for a part of the box: a disk is in one of them wherever it has gone, and a search of the cells
+// around it finds it there.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ std::uint32_t cell_after(std::uint32_t cell, std::uint32_t steps, std::uint32_t 
   return (cell + steps) % cells;
 }
 
-// Whatever cells are stored, and whatever cells of the box are searched.
+// For any stored cells and any searched cells of the box.
 TEST(StoredCells, AreSearchedWhereTheDisksOfACellAre) {
   constexpr std::uint32_t cells = 11;
   for (std::uint32_t count = 1; count + 2 <= cells; ++count) {
@@ -39,18 +39,18 @@ TEST(StoredCells, AreSearchedWhereTheDisksOfACellAre) {
   }
 }
 
-// And no others, where the searched ones are all stored.
+// If all searched cells are stored, only they are searched.
 TEST(StoredCells, AreSearchedAloneWhereAllAreStored) {
-  const StoredCells stored{7, 6};  // of 10, round the box: 7, 8, 9, 0, 1, 2
+  const StoredCells stored{7, 6};  // of 10 cells, across the border: 7, 8, 9, 0, 1, 2
   const Span span = stored_span(stored, 10, {8, 4});
   EXPECT_EQ(span.first, 1U);
   EXPECT_EQ(span.count, 4U);
-  EXPECT_EQ(stored.place_of(3, 10), 5U) << "the nearest one";
+  EXPECT_EQ(stored.place_of(3, 10), 5U) << "the nearest stored cell";
   EXPECT_EQ(stored.place_of(6, 10), 0U);
 }
 
-// Between two places all cells are stored, one after the other, in the rows and columns of each level; outside of them
-// none, but for where all are.
+// All cells between two places are stored consecutively, in the rows and columns of each level, and none outside,
+// unless all cells are.
 TEST(StoredCells, AreThoseBetweenTwoPlaces) {
   for (const test::Periodic along : {test::Periodic::none, test::Periodic::both}) {
     const Domain box = test::box_of(60.0, 40.0, along);
@@ -87,7 +87,7 @@ TEST(StoredCells, AreThoseBetweenTwoPlaces) {
   }
 }
 
-// The quick way to the places of a search is the same as the other one, where it says any.
+// If the quick computation of the places of a search gives a result, it is that of the general one.
 TEST(ListedAxis, TellsTheSamePlacesAsStoredSpan) {
   for (const bool periodic : {false, true}) {
     constexpr std::uint32_t cells = 13;

@@ -1,6 +1,6 @@
-// Contacts without a way towards each other: disks that touch and pass along each other, and disks that slide along an
-// inner wall. Rounding alone says whether they approach, and the impulse that parts them may be below the last place of
-// their velocities: time must get on all the same, in both engines alike.
+// Contacts without approach: disks that touch and pass along each other, and disks that slide along an inner wall. Only
+// rounding decides whether they approach, and the impulse that parts them may be below the last place of their
+// velocities. Time must advance nevertheless, in the same way in both engines.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ namespace {
 
 constexpr int seeds = 12;
 
-// Runs both engines for some windows. Returns the reference's last state.
+// Runs both engines for some windows. Returns the last state of the reference.
 State run_both(const Scene& scene, const State& start, int windows) {
   const auto reference = make_reference_exact(scene, start);
   const auto alone = make_parallel_exact(scene, start, {1});
@@ -45,7 +45,7 @@ struct PairCase {
   const char* name;
   Gravity gravity{};
   double shear_rate = 0.0;
-  bool alike = true;  // masses and radii
+  bool alike = true;  // equal masses and radii
 };
 
 void PrintTo(const PairCase& c, std::ostream* out) {
@@ -54,8 +54,8 @@ void PrintTo(const PairCase& c, std::ostream* out) {
 
 class Tangential : public testing::TestWithParam<PairCase> {};
 
-// One pair in each of 144 cells, which touch along any direction, as well as doubles have it, and move across it; half
-// of them with a velocity in common, whose last place is larger than the others'.
+// One pair in each of 144 cells. The disks touch in some direction, as exactly as doubles allow, and move across it;
+// half of the pairs have a common velocity, whose last place is larger than that of the other velocities.
 State pairs_that_touch(test::Draws& draws, const PairCase& c) {
   std::vector<Disk> list;
   for (int k = 0; k < 144; ++k) {
@@ -73,7 +73,7 @@ State pairs_that_touch(test::Draws& draws, const PairCase& c) {
   return test::state_of(list);
 }
 
-// Disks that pass do not push each other: energy and momentum stay, and so do, but for roundings, the velocities.
+// Disks that pass do not push each other: energy and momentum are conserved, and so are the velocities, up to rounding.
 TEST_P(Tangential, PairsPassEachOther) {
   const PairCase& c = GetParam();
   for (std::uint32_t seed = 1; seed <= seeds && !HasFailure(); ++seed) {
@@ -85,7 +85,7 @@ TEST_P(Tangential, PairsPassEachOther) {
     const State start = pairs_that_touch(draws, c);
     const State end = run_both(scene, start, 2);
     if (c.gravity.acts() || c.shear_rate != 0.0) continue;
-    ASSERT_LT(end.time, 5.0);  // no pair has met another by then
+    ASSERT_LT(end.time, 5.0);  // no pair can have met another by then
     for (std::size_t i = 0; i < start.disks.size(); ++i) {
       EXPECT_NEAR(end.disks.vx[index_of(end.disks, start.disks.id[i])], start.disks.vx[i], 1e-13);
       EXPECT_NEAR(end.disks.vy[index_of(end.disks, start.disks.id[i])], start.disks.vy[i], 1e-13);
@@ -98,8 +98,8 @@ INSTANTIATE_TEST_SUITE_P(Pairs, Tangential,
                                          PairCase{"unlike", {}, 0.0, false}, PairCase{"sheared", {}, 0.1}),
                          [](const auto& p) { return std::string(p.param.name); });
 
-// Disks on both sides of a wall that stands askew, at their radius from it to the last bits, each with a velocity of
-// its own along it: they collide in rows, and slide off its ends. velocity: of the wall, which they share.
+// Disks on both sides of an oblique wall, at a distance of their radius to the last bits, each with its own velocity
+// along the wall: they collide in rows and slide off its ends. velocity: of the wall, added to that of all disks.
 State sliders(test::Draws& draws, Vec2 u, Vec2 velocity) {
   std::vector<Disk> list;
   constexpr double radius = 0.5;

@@ -1,5 +1,5 @@
-// How long windows of the exact method are: the longest that pays, from the speeds of disks, walls and flow, and how a
-// window follows from the events of the one before.
+// The length of windows of the exact method: the longest that pays, from the speeds of disks, walls and flow, and the
+// length that follows from the number of events in the window before.
 #include "core/step/window_length.hpp"
 
 #include <gtest/gtest.h>
@@ -19,8 +19,8 @@ Scene scene_of_spacing_2() {
 
 constexpr std::size_t disks = 100;
 
-// The spacing, for the disk of root mean square speed: whatever adds to its speed on the way to its neighbour shortens
-// that, each by its square.
+// The spacing over the root mean square speed of disks. Whatever else moves a disk on the way to its neighbour shortens
+// this; speeds are added in squares.
 TEST(WindowLength, IsTheTimeToANeighbour) {
   const Scene plain = scene_of_spacing_2();
   EXPECT_DOUBLE_EQ(longest_window(plain, {99.0, 9.0}, disks), 2.0 / 3.0);
@@ -32,7 +32,7 @@ TEST(WindowLength, IsTheTimeToANeighbour) {
   moves.box.motions[1] = {SideMotion::Kind::steady, 0.0, -4.0};
   EXPECT_DOUBLE_EQ(longest_window(moves, {99.0, 9.0}, disks), 2.0 / 5.0);
   Scene flows = plain;
-  flows.box.shear.rate = 2.0;  // times the spacing: 4
+  flows.box.shear.rate = 2.0;  // 4 over a distance of the spacing
   flows.box.shear.jump = 20.0;
   EXPECT_DOUBLE_EQ(longest_window(flows, {99.0, 9.0}, disks), 40.0 / (8.0 * 20.0));
   flows.box.width = 400.0, flows.box.height = 1.0;
@@ -40,14 +40,14 @@ TEST(WindowLength, IsTheTimeToANeighbour) {
   EXPECT_DOUBLE_EQ(longest_window(flows, {99.0, 9.0}, disks), 2.0 / 5.0);
 }
 
-// Where there are fewer than 64 disks each goes proportionally further.
+// With fewer than 64 disks each moves proportionally further.
 TEST(WindowLength, IsLongerForFewDisks) {
   Scene scene = scene_of_spacing_2();
   scene.box.width = 16.0, scene.box.height = 4.0;  // 16 disks
   EXPECT_DOUBLE_EQ(longest_window(scene, {1.0, 1.0}, 16), 2.0 * 4.0);
 }
 
-// An inner wall goes by an eighth of the shorter side of the box at most, with disks and without.
+// An inner wall moves by at most an eighth of the box's shorter side, with disks and without.
 TEST(WindowLength, KeepsInnerWallsNear) {
   Scene scene = scene_of_spacing_2();
   InnerWall wall;
@@ -57,13 +57,13 @@ TEST(WindowLength, KeepsInnerWallsNear) {
   scene.box.inner_walls_move = true;
   EXPECT_DOUBLE_EQ(longest_window(scene, {0.0, 0.0}, 0), 10.0 / (8.0 * 5.0));
   EXPECT_DOUBLE_EQ(longest_window(scene, {0.0, 0.0}, disks), 10.0 / (8.0 * 5.0));
-  // Where that is longer, its speed is that which it gives to disks at rest.
+  // If that allows a longer window, the wall's speed counts as the speed that it gives to disks at rest.
   scene.box.width = scene.box.height = 200.0;
   EXPECT_DOUBLE_EQ(longest_window(scene, {0.0, 0.0}, 10000), 2.0 / 5.0);
 }
 
-// Aims at two events a disk, and no fewer than 32; halves or doubles at most. Without an event it doubles, but not
-// where it was cut short.
+// Windows aim at two events per disk, and at least 32; they are halved or doubled at most. Without an event the length
+// is doubled, unless the window was cut short.
 TEST(NextWindow, AimsAtTwoEventsADisk) {
   EXPECT_DOUBLE_EQ(next_window(1.0, 1.0, 200, disks), 1.0);
   EXPECT_DOUBLE_EQ(next_window(1.0, 1.0, 160, disks), 1.25);
@@ -75,8 +75,8 @@ TEST(NextWindow, AimsAtTwoEventsADisk) {
   EXPECT_EQ(next_window(1.0, 0.5, 0, disks), 1.0);
 }
 
-// From 1 / 512 to the whole of the longest one; the first is 1 / 32 of it. One below that bound (state.window < 0, a
-// crowded box) is taken as it is.
+// A window is between 1 / 512 of the longest one and the whole; the first is 1 / 32 of it. A length below that bound
+// (state.window < 0, in a crowded box) is used as it is.
 TEST(ClampedWindow, IsAShareOfTheLongest) {
   EXPECT_EQ(clamped_window(0.0, 64.0), 2.0);
   EXPECT_EQ(clamped_window(HUGE_VAL, 64.0), 2.0);
@@ -88,13 +88,13 @@ TEST(ClampedWindow, IsAShareOfTheLongest) {
   EXPECT_EQ(clamped_window(5.0, HUGE_VAL), HUGE_VAL);
 }
 
-// 32 paths a disk, and 65536 where disks are few.
+// 32 paths per disk, but at least 65536.
 TEST(MostPaths, IsAShareOfEachDisk) {
   EXPECT_EQ(most_paths(10), 65536U);
   EXPECT_EQ(most_paths(10000), 320000U);
 }
 
-// Relative to the flow, but for the largest speed, by which the exact method bounds where disks may come.
+// Speeds are relative to the flow, except the largest, from which the exact method bounds the reach of disks.
 TEST(SpeedTally, IsOfMotionRelativeToTheFlow) {
   Domain box = test::box_of(40.0, 10.0, test::Periodic::both);
   Disks d = test::disks_of({{5.0, 7.0, 3.0, 4.0, 0.5, 1.0}, {9.0, 5.0, 0.0, 1.0, 0.5, 1.0}});

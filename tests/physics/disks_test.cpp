@@ -31,8 +31,8 @@ void expect_in_order(const std::vector<DiskId>& ids) {
 TEST(ById, OrdersAnyIds) {
   EXPECT_TRUE(by_id({}).empty());
   std::mt19937 random(3);
-  for (const double share :
-       {1.0, 0.9, 0.3, 0.26, 0.24, 0.01}) {  // ids per possible id; below a quarter by_id sorts
+  // share: disks over the largest id; by_id has another way below a quarter.
+  for (const double share : {1.0, 0.9, 0.3, 0.26, 0.24, 0.01}) {
     for (int k = 0; k < 50; ++k) {
       std::vector<DiskId> ids(1 + random() % 300);
       const auto step = static_cast<DiskId>(1.0 / share);
