@@ -1,4 +1,4 @@
-// Cycles beyond the usual ones, for high piles that tremble (core/physics/support_solver.hpp).
+// Additional cycles of the solver for high piles that tremble (core/physics/support_solver.hpp).
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -22,7 +22,7 @@ SupportTotals totals_of_column(int n) {
 }
 
 TEST(CalmingCycles, GrowWithTheHeightOfThePile) {
-  const double trembling = 1e-4 * fall * fall;  // a hundredth of g dt in each, squared, times the mass
+  const double trembling = 1e-4 * fall * fall;  // a hundredth of g dt for each disk, squared, times the mass
   EXPECT_EQ(calming_cycles(totals_of_column(50), fall, 25.0 * trembling).most, 10);
   EXPECT_EQ(calming_cycles(totals_of_column(400), fall, 200.0 * trembling).most, 80);
   EXPECT_EQ(calming_cycles(totals_of_column(5000), fall, 2500.0 * trembling).most, most_cycles);
@@ -32,7 +32,8 @@ TEST(CalmingCycles, AreNotForDisksThatLand) {
   EXPECT_EQ(calming_cycles(totals_of_column(400), fall, 800.0 * fall * fall).most, 0);
 }
 
-// A leaning column on which the last disks fall: the same bits by the reference and on any number of threads.
+// A leaning column on which the last disks fall: the reference and the engine on any number of threads have the same
+// bits.
 TEST(CalmingCycles, OfTheEngineAreTheReferences) {
   Scene scene = test::scene_of(Method::pairwise, 2.2, 900.0, 0.005, 1.0);
   scene.physics.gravity = 1.0;

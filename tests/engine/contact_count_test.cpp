@@ -1,4 +1,4 @@
-// Counts of 16 bits: a disk with more contacts than they hold is not taken for one with a single contact.
+// Counts with 16 bits: a disk with more contacts than they can count must not appear as one with a single contact.
 #include "parallel/stepping/contact_count.hpp"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ TEST(ContactCount, StaysLargeOnManyThreads) {
   EXPECT_EQ(count, 700U);
 }
 
-// As the engine counts them: a disk with 65,537 contacts, each of them the only one of the other disk.
+// The counts of the engine for a disk with 65,537 contacts, each of them the only one of the other disk.
 TEST(ContactCount, OfTheEngineTakesNoCrowdedContactForAlone) {
   ContactLists lists;
   lists.contacts.resize(one_too_many + 1, 0);

@@ -1,4 +1,4 @@
-// The engine's search through sorted cells against all pairs, on scenes that are hard for a grid.
+// The engine's search in sorted cells, compared with a test of all pairs, in scenes that are hard for a grid.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ using test::Periodic;
 using test::periodic_along;
 
 struct Searched {
-  std::vector<Pair> pairs;  // as ids
+  std::vector<Pair> pairs;  // by their ids
   std::size_t strays = 0;
 };
 
@@ -38,8 +38,8 @@ CellGrid grid_for(const Disks& d, const Domain& box) {
   return make_grid(box, largest, count_classes(d, largest));
 }
 
-// Sorts, lets every disk move by `moved` of its own radius in some direction, searches. found: as an engine does, one
-// has room for the next search; to make it anew takes longer than to search.
+// Sorts the disks, moves each of them by up to `moved` of its radius, and searches. found: is reused for further
+// searches, as an engine does, since making it takes longer than searching.
 Searched search(Disks d, const Domain& box, double moved, int threads, std::size_t divisor, FoundContacts& found,
                 Disks* at_search = nullptr) {
   const Executor executor(threads, divisor);
@@ -67,7 +67,7 @@ Searched search(Disks d, const Domain& box, double moved, int threads, std::size
   return result;
 }
 
-// n disks anywhere in the box and a little beyond, overlapping freely; radii from small to large, log-uniform.
+// n disks anywhere in the box and a little beyond, which may overlap; radii from small to large, log-uniform.
 Disks scattered(const Domain& box, std::size_t n, double small, double large, std::uint64_t seed) {
   Disks d;
   for (std::size_t i = 0; i < n; ++i) {
@@ -114,8 +114,8 @@ TEST_P(ContactSearch, FindsAllPairsOfScatteredDisks) {
   }
 }
 
-// Few disks that reach over one, several and very many cells of small ones, and small ones that find a crowd of larger
-// disks in a few cells.
+// A few disks that reach over one, several or very many cells of small disks, and small disks near a crowd of larger
+// ones in a few cells.
 TEST_P(ContactSearch, FindsPairsOfFewLargeDisksAmongManySmallOnes) {
   const Domain box = box_of(24.0, 20.0, periodic_along((GetParam() & 1) != 0, (GetParam() & 2) != 0));
   const Domain corner = box_of(8.0, 6.0);
@@ -134,17 +134,17 @@ TEST_P(ContactSearch, FindsPairsOnEdgesAndCorners) {
   const Domain box = box_of(24.0, 12.0, periodic_along(px, py));
   Disks d;
   DiskId id = 0;
-  // Touching disks whose centres lie exactly on cell edges, corners and the box's edge.
+  // Touching disks whose centres lie exactly on edges and corners of cells and on the box's edge.
   for (int i = 0; i < 24; ++i) {
     for (int j = 0; j < 12; ++j) append(d, {i * 1.0, j * 1.0, 0, 0, 0.5, 1.0, id++});
   }
   expect_all_pairs(d, box, 0.0);
 }
 
-// The search's positions are rounded to a few thousandths of a diameter.
+// The positions used by the search are rounded to a few thousandths of a diameter.
 TEST_P(ContactSearch, FindsPairsThatOnlyJustTouch) {
   const Domain box = box_of(400.0, 320.0, periodic_along((GetParam() & 1) != 0, (GetParam() & 2) != 0));
-  for (const double ratio : {1.0, 1.5, 0.3, 0.02}) {  // the last two: of several size classes
+  for (const double ratio : {1.0, 1.5, 0.3, 0.02}) {  // the last two have several size classes
     Disks d;
     for (DiskId id = 0; id < 8000; id += 2) {
       const TwoUniforms place = uniforms(11, Stream::position, id, 0);
@@ -178,7 +178,7 @@ TEST_P(ContactSearch, FindsPairsInOneCellAndAmongEmptyOnes) {
 
 INSTANTIATE_TEST_SUITE_P(Sides, ContactSearch, ::testing::Values(0, 1, 2, 3));
 
-// Disks that have left their cells further than the margin are strays: they must be noticed, and nothing may be missed.
+// Disks that have left their cells by more than the margin are strays: they must be noticed, and no pair may be missed.
 TEST(ContactSearchStrays, AreNoticedAndSearchedFor) {
   const Domain box = box_of(50.0, 40.0, Periodic::both);
   const Disks d = scattered(box, 500, 0.5, 0.5, 8);
@@ -188,7 +188,8 @@ TEST(ContactSearchStrays, AreNoticedAndSearchedFor) {
   for (const double moved : {0.3, 0.6, 1.5, 5.0}) expect_all_pairs(d, box, moved);
 }
 
-// The counting sort: keys ascend, every disk is still there, disks of a cell keep their order, threads do not matter.
+// The counting sort: keys ascend, no disk is lost, disks of a cell keep their order, and the number of threads does not
+// matter.
 TEST(CountingSort, IsStableAndIndependentOfThreads) {
   const Domain box = box_of(60.0, 45.0);
   const Disks start = scattered(box, 5000, 0.1, 0.9, 9);

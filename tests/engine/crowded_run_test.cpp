@@ -1,5 +1,5 @@
-// A run whose windows are crowded reacts to signals and to its wall time, resumes with the same bits, and reports why
-// where time stands still.
+// A run with crowded windows reacts to signals and to its wall time, resumes with the same bits, and says why time
+// stands still.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,14 +16,14 @@ using ::testing::Not;
 
 class CrowdedRun : public ProgramTest {
  protected:
-  // A light disk between a wall and a heavy one: pi / 2 sqrt(ratio) collisions, nearly all of them around t = 15.
+  // A light disk between a wall and a heavy disk: pi / 2 sqrt(ratio) collisions, nearly all of them around t = 15.
   void write_burst(const std::string& name, const std::string& light) const {
     write(name,
           "[box]\nwidth = 40\nheight = 20\n[[disks]]\ncount = 2\npositions = [[5, 10], [20, 10]]\n"
           "velocities = [[0, 0], [-1, 0]]\nradius = 1\nmass = [" +
               light + ", 1.0]\n[run]\nt_end = 30\n[output]\nevery = 5\nseries = true\n");
   }
-  // A run that never comes so far fails the test by its time limit.
+  // Waits for a file. A run that never writes it fails the test by the test's time limit.
   static void await(const std::filesystem::path& file) {
     while (!std::filesystem::exists(file)) usleep(1000);
   }

@@ -1,4 +1,4 @@
-// How crowded disks are where they are, against densities that follow from how they were placed.
+// The crowding of disks, compared with densities that follow from how they were placed.
 #include "parallel/cells/crowding.hpp"
 
 #include <gtest/gtest.h>
@@ -28,8 +28,8 @@ Disks placed(std::size_t n, Place&& place) {
   return d;
 }
 
-// By hand: 64 disks share one of four cells, more than 40 others each, so there are sixteen; in each of two of these 32
-// disks have 31 others, where 64 in the whole box would have 4.
+// Counted by hand: 64 disks share one of four cells and have more than 40 others each, so there are sixteen cells. Two
+// of these have 32 disks each, with 31 others; in a uniform box a disk would have 64 / 16 = 4.
 TEST(Crowding, CountsTheOthersOfADisk) {
   const Disks d = placed(64, [](std::size_t i) {
     return Vec2{i % 2 == 0 ? 5.0 : 15.0, 2.0 + 0.1 * static_cast<double>(i)};
@@ -62,7 +62,7 @@ TEST(Crowding, FewDisksAreNotCrowded) {
   EXPECT_EQ(crowding(placed(1, [](std::size_t) { return Vec2{}; }), test::box_of(1e6, 1e6)), 1.0);
 }
 
-// Disks in a share s of the box are 1 / s times as dense as in the mean.
+// Disks that occupy a share s of the box are 1 / s times as dense as the mean.
 TEST(Crowding, DisksInAShareOfTheBoxAreDenserByThatShare) {
   for (const std::size_t n : {std::size_t{400}, std::size_t{20'000}, std::size_t{200'000}}) {
     for (const double share : {0.2, 1e-2, 1e-4}) {
@@ -78,7 +78,7 @@ TEST(Crowding, DisksInAShareOfTheBoxAreDenserByThatShare) {
   }
 }
 
-// n(y) = exp(-y / l) / l in the mean over the disks: the integral of n^2, 1 / 2 l, over the mean density 1 / h.
+// n(y) = exp(-y / l) / l, averaged over the disks: the integral of n^2 is 1 / 2 l, divided by the mean density 1 / h.
 TEST(Crowding, OfAnAtmosphereIsHalfTheHeightInScaleHeights) {
   test::Draws draws(5);
   const Domain box = test::box_of(40.0, 1000.0);
@@ -96,7 +96,7 @@ TEST(Crowding, SomeOfTheDisksTellWhereTheyAreAllOverThatPart) {
   EXPECT_EQ(crowding(lower, box, 20'000), 1.0);
 }
 
-// The cells of a pile in a tall box hold as few disks as those of a box that the pile fills.
+// The cells of a pile in a tall box have as few disks as in a box that the pile fills.
 TEST(Crowding, GivesCellsToDisksWhereTheyAre) {
   test::Draws draws(7);
   constexpr std::size_t n = 2000;
@@ -110,8 +110,8 @@ TEST(Crowding, GivesCellsToDisksWhereTheyAre) {
   EXPECT_LT(grid.keys, 200 * n);
 }
 
-// Each sort visits all cells, so that time stepping has fewer: they hold some more disks, and are fewer than the box
-// is times as high as the pile.
+// Each sort visits all cells, so time stepping uses fewer: they have somewhat more disks, and their number grows less
+// than the ratio of the heights of box and pile.
 TEST(Crowding, GivesTimeSteppingFewerCells) {
   test::Draws draws(8);
   constexpr std::size_t n = 2000;

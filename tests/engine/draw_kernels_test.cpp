@@ -1,4 +1,4 @@
-// Random numbers drawn by vectors: the bits of core's formula, disk by disk.
+// Random numbers drawn by vector kernels have the bits of core's formula for single disks.
 #include "parallel/kicks/draw_kernels.hpp"
 
 #include <gtest/gtest.h>
@@ -15,10 +15,10 @@ constexpr std::uint64_t seed = 0x123456789abcdef0;
 
 struct Deviates {
   std::vector<double> x, y;
-  double largest2 = 0.0;  // x^2 + y^2 of those drawn
+  double largest2 = 0.0;  // of the x^2 + y^2 drawn
 };
 
-// Ids in no order, and old numbers that must not show unless they are added to.
+// Ids in no order. Columns start with old numbers, which must be overwritten or added to as told.
 std::vector<DiskId> ids_of(std::size_t n) {
   std::vector<DiskId> id(n);
   for (std::size_t i = 0; i < n; ++i) id[i] = static_cast<DiskId>(i * 2654435761U);

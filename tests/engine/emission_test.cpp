@@ -1,5 +1,5 @@
-// What a source draws, and what it counts on: places along a side, speeds that know nothing of each other, rates of
-// sources that have more, the largest disk to come.
+// Draws of sources and the figures used to plan for them: places along a side, independent speeds, the rate of sources
+// that are not exhausted, and the largest disk to come.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double radius = 0.5, width = 30.0, height = 20.0;
 
-// Disks of mass 4 through the left side.
+// Disks of mass 4 enter through the left side.
 Scene scene_with_source() {
   Scene s = test::scene_of(Method::pairwise, width, height, 0.1, 1.0);
   Source source;
@@ -30,7 +30,7 @@ Scene scene_with_source() {
   return s;
 }
 
-// Across periodic sides, and clear of walls.
+// The whole side up to periodic ends, and up to a radius from walls.
 TEST(EmissionPlace, IsAnywhereAlongTheSide) {
   for (const Side side : all_sides) {
     const bool upright = side == Side::left || side == Side::right;
@@ -55,7 +55,7 @@ TEST(EmissionPlace, IsAnywhereAlongTheSide) {
   }
 }
 
-// Of a Rayleigh deviate and a normal one the second is the larger in absolute value in 1 - 1 / sqrt(2) of all draws.
+// A normal deviate is larger in absolute value than a Rayleigh deviate in 1 - 1 / sqrt(2) of all draws.
 TEST(EmissionSpeed, AlongTheSideKnowsNothingOfThatThroughIt) {
   const Scene s = scene_with_source();
   constexpr int n = 20000;
@@ -68,7 +68,7 @@ TEST(EmissionSpeed, AlongTheSideKnowsNothingOfThatThroughIt) {
   EXPECT_NEAR(static_cast<double>(slanting) / n, share, 4.0 * std::sqrt(share * (1.0 - share) / n));
 }
 
-// One that moves has come in since the start: a disk touches it there and has its speed.
+// A moving side has come in since the start: the disk touches it where it is now, and has its speed in addition.
 TEST(EmissionPlace, IsWhereASideThatMovesIsThen) {
   Scene s = scene_with_source();
   SideMotion& motion = s.box.motions[static_cast<std::size_t>(Side::left)];
@@ -106,7 +106,7 @@ TEST(LargestOfASource, FollowsFromItsMassWhereItsRadiusDoes) {
   EXPECT_NEAR(largest_radius_of(source), 1.5, 1e-12);
 }
 
-// A disk that is due at the end itself comes no more.
+// A disk that is due exactly at the end does not come any more.
 TEST(EmissionsDue, BeforeATimeAreThoseOfEarlierOnes) {
   Source source;
   source.rate = 2.0;

@@ -1,4 +1,4 @@
-// The disks that a source draws: where they come in, their speeds, spins and energy, and how many of those that wait.
+// Disks drawn by a source: their places, speeds, spins and energy, and how many of the waiting ones come.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace carom {
 namespace {
 
-// Through each side: touching it, inside the box, moving inward.
+// For each side: the disk touches it, is inside the box, and moves inwards.
 TEST(Emission, ThroughASideTouchesItAndMovesInward) {
   Scene s = test::scene_of(Method::pairwise, 30.0, 20.0, 0.1, 1.0);
   for (Side side : all_sides) {
@@ -35,8 +35,9 @@ TEST(Emission, ThroughASideTouchesItAndMovesInward) {
   }
 }
 
-// A gas behind a hole: the speed along the normal is weighted by itself, density m v / T exp(-m v^2 / 2 T), mean
-// sqrt(pi T / 2 m), variance (2 - pi / 2) T / m; across it a normal deviate of variance T / m. 4 standard errors.
+// A gas behind a hole: the distribution of the normal speed is weighted with the speed, with density m v / T exp(-m v^2
+// / 2 T), mean sqrt(pi T / 2 m), and variance (2 - pi / 2) T / m; the tangential velocity is a normal deviate of
+// variance T / m. The tolerance is 4 standard errors.
 TEST(Emission, MaxwellIsThatOfAGasBehindAHole) {
   Scene s = test::scene_of(Method::pairwise, 30.0, 20.0, 0.1, 1.0);
   Source source = test::source_of(1.0, 0.5);
@@ -58,7 +59,7 @@ TEST(Emission, MaxwellIsThatOfAGasBehindAHole) {
   EXPECT_NEAR(across / (unit * unit), 1.0, 4.0 * std::sqrt(2.0 / n));
 }
 
-// Two sources draw from streams of their own.
+// Each source draws from a stream of its own.
 TEST(Emission, SourcesDiffer) {
   Scene s = test::scene_of(Method::pairwise, 30.0, 20.0, 0.1, 1.0);
   Source source = test::source_in({1.0, 1.0}, {29.0, 19.0}, 1.0, 0.5);
@@ -68,7 +69,8 @@ TEST(Emission, SourcesDiffer) {
   EXPECT_EQ(draw_emission(s, s.box, 0, 5, 0, 0).x, draw_emission(s, s.box, 0, 5, 0, 0).x);
 }
 
-// Between the sides where they are, all along the one that it comes through; into the frame of one that moves.
+// Disks come in along the whole side, between the adjacent sides as they are now; if the side moves, velocities are
+// drawn in its frame.
 TEST(Emission, ThroughASideStaysBetweenThoseThatHaveMoved) {
   Scene s = test::scene_of(Method::pairwise, 30.0, 20.0, 0.1, 1.0);
   Source source = test::source_of(1.0, 0.5);
@@ -82,17 +84,17 @@ TEST(Emission, ThroughASideStaysBetweenThoseThatHaveMoved) {
   for (DiskId id = 0; id < 400; ++id) {
     const Disk d = draw_emission(s, box, 0, id, id, id);
     EXPECT_EQ(d.x, 2.5);
-    EXPECT_GE(d.vx, 5.0) << "the side comes on at 5";
+    EXPECT_GE(d.vx, 5.0) << "the side comes in at 5";
     EXPECT_LE(d.vx, 6.0);
     least = std::min(least, d.y);
     most = std::max(most, d.y);
   }
   EXPECT_GE(least, 6.5);
   EXPECT_LE(most, 16.5);
-  EXPECT_NEAR(most - least, 10.0, 0.2) << "of 400 places";
+  EXPECT_NEAR(most - least, 10.0, 0.2) << "the range of 400 places";
 }
 
-// I w^2 has the mean T; 4 standard errors of the mean of n squares of a normal deviate.
+// I w^2 has the mean T; the tolerance is 4 standard errors of the mean of n squares of normal deviates.
 TEST(Emission, SpinsAreThoseOfTheirTemperature) {
   Scene s = test::scene_of(Method::pairwise, 30.0, 20.0, 0.1, 1.0);
   s.physics.surfaces.inertia = 0.3;
@@ -111,7 +113,7 @@ TEST(Emission, SpinsAreThoseOfTheirTemperature) {
   EXPECT_NEAR(twice_energy / 2.0, 1.0, 4.0 * std::sqrt(2.0 / n));
 }
 
-// All that they come with: of motion, of place and of rotation.
+// The energy of new disks includes that of translation, position and rotation.
 TEST(Emission, EnergyOfNewDisksIsCounted) {
   Scene s = test::scene_of(Method::pairwise, 30.0, 20.0, 0.1, 1.0);
   s.physics.gravity = Gravity(0.25, 0.5);
@@ -133,7 +135,7 @@ TEST(Emission, EnergyOfNewDisksIsCounted) {
   EXPECT_NEAR(state.counters.emitted_energy, energy.total(), 1e-12 * energy.total());
 }
 
-// What waits is the sum over the sources.
+// The number of waiting disks is summed over the sources.
 TEST(Emission, DisksOfAllSourcesWait) {
   Scene s = test::scene_of(Method::pairwise, 30.0, 20.0, 0.1, 10.0);
   Source source = test::source_in({1.0, 1.0}, {29.0, 19.0}, 1.0, 0.5);
@@ -144,7 +146,7 @@ TEST(Emission, DisksOfAllSourcesWait) {
   EXPECT_EQ(state.counters.waiting, 3U + 6U);
 }
 
-// A region may reach closer to a wall than a radius: what is drawn there waits, at each of the four walls alike.
+// A region may come closer to a wall than a radius: a disk drawn there has to wait, at each of the four walls.
 TEST(Emission, FromARegionIsWithinAllWalls) {
   Scene s = test::scene_of(Method::pairwise, 6.0, 4.0, 0.1, 6.0);
   const auto anywhere = [](const Disk&) { return true; };
@@ -165,7 +167,7 @@ TEST(Emission, FromARegionIsWithinAllWalls) {
   }
 }
 
-// 3.3 - 1.1 is less than 2.2 in binary numbers; such a scene was refused, as if there were no place.
+// In binary numbers 3.3 - 1.1 is less than 2.2; such a scene was once refused, as if there were no room.
 TEST(Emission, FromAPlaceThatTouchesAWallInDecimals) {
   const Scene s = parse_scene(
       "[box]\nwidth = 3.3\nheight = 9.0\n[[sources]]\nregion = [2.2, 2.0, 2.2, 2.0]\nrate = 10.0\nlimit = 1\n"
@@ -177,7 +179,7 @@ TEST(Emission, FromAPlaceThatTouchesAWallInDecimals) {
   EXPECT_EQ(state.disks.x[0], 2.2);
 }
 
-// Where all that have waited find room at once, no more come than the limit.
+// If there is room for all waiting disks at once, still no more come than the limit.
 TEST(Emission, OfThoseThatWaitedNoMoreComeThanTheLimit) {
   Scene s = test::scene_of(Method::exact, 30.0, 20.0, 0.1, 9.0);
   Source source = test::source_in({1.0, 1.0}, {29.0, 19.0}, 1.0, 0.5);

@@ -1,4 +1,4 @@
-// A box that is empty for a while: frames of that time exist, and both engines of the exact method give the same.
+// A box that is empty for a while: there are frames for that time, the same from both engines of the exact method.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -11,7 +11,7 @@
 namespace carom::exact_tests {
 namespace {
 
-// Times and disks of every frame that is due, as a run makes them.
+// The time and disks of every frame that is due, as in a run.
 std::vector<std::string> frames_of(Engine& engine, const Scene& scene, double every) {
   std::vector<std::string> frames;
   Disks disks;

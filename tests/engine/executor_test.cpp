@@ -1,4 +1,4 @@
-// Several executors in one process, as several simulations of a library's user have.
+// Several executors in one process, as when a user of the library has several simulations.
 #include "parallel/threads/executor.hpp"
 
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 namespace carom {
 namespace {
 
-// What oneTBB allows a process is the least of all limits that are set in it: an executor that set its own number took
-// threads from those beside it.
+// oneTBB allows a process the smallest of all limits set in it; an executor that set its own number once took threads
+// from the others.
 TEST(Executor, TakesNoThreadsFromThoseBesideIt) {
   const Executor few(2), many(6);
   std::atomic<std::size_t> run = 0;
@@ -23,7 +23,7 @@ TEST(Executor, TakesNoThreadsFromThoseBesideIt) {
   EXPECT_GE(Control::active_value(Control::max_allowed_parallelism), 6U);
 }
 
-// Blocks of 8192 are good for a large system; 10^4 disks would be a whole one and a small rest.
+// Blocks of 8192 suit a large system, but would divide 10^4 disks into a whole block and a small rest.
 TEST(Executor, SharesOutTenThousandItemsEvenly) {
   constexpr std::size_t usual = 8192;
   const Executor executor(2);
@@ -35,11 +35,11 @@ TEST(Executor, SharesOutTenThousandItemsEvenly) {
   EXPECT_EQ(executor.blocks(5 * usual, usual), 8U);
   EXPECT_EQ(executor.blocks(8 * usual, usual), 8U);
   EXPECT_EQ(executor.blocks(8 * usual + 1, usual), 9U);
-  EXPECT_EQ(executor.blocks(1025, 1024), 2U);             // small ones as they are
-  EXPECT_EQ(Executor(2, 64).blocks(10'000, usual), 79U);  // of 128
+  EXPECT_EQ(executor.blocks(1025, 1024), 2U);             // blocks this small stay as they are
+  EXPECT_EQ(Executor(2, 64).blocks(10'000, usual), 79U);  // of 128 each
 }
 
-// Whichever way blocks are shared out, each is run once.
+// Each block runs once, whichever way blocks are distributed.
 TEST(Executor, RunsEachBlockOnce) {
   const Executor executor(3);
   for (const std::size_t blocks : {1U, 2U, 4U, 5U, 100U}) {

@@ -1,4 +1,4 @@
-// Steps far too long: what is wrong is wrong alike in both engines, and said.
+// Steps that are far too long: errors are the same in both engines, and are reported.
 #include <gtest/gtest.h>
 
 #include "core/base/check.hpp"
@@ -28,8 +28,8 @@ TEST(Wrap, BringsACoordinateBackFromAnyDistance) {
   EXPECT_EQ(wrap(1.0, 1.0), 0.0);
 }
 
-// A thermal side sends disks of mass 1e-6 through many widths of the box within the step in which they meet it: the
-// next step is refused, and until then both engines have the same disks, all of them in the box.
+// A thermal side sends disks of mass 1e-6 through many widths of the box within the step in which they meet it. The
+// next step is refused; until then both engines have the same disks, all inside the box.
 TEST(FarStep, DisksThatGoThroughManyPeriodsAreInTheBox) {
   const Scene scene = test::scene_from(R"(seed = 520453
 [box]

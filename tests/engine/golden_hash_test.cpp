@@ -1,5 +1,5 @@
-// Hashes of known runs, pinned: the same for release and debug builds, for g++ and clang, for reference and engine. A
-// change of one of them is a change of physics: find out why before writing down the new one.
+// Hashes of known runs. They are the same for release and debug builds, for g++ and clang, for reference and engine. If
+// one of them changes the physics has changed: find out why before writing down the new hash.
 #include <gtest/gtest.h>
 
 #include "core/step/engine.hpp"

@@ -1,5 +1,5 @@
-// Inner walls: what a disk does at a segment and at its ends, sinks, funnels, and what is said of walls that are none.
-// That both engines agree on them, and resumed runs, is obstacles_test's.
+// Inner walls: contacts with a segment and with its ends, sinks, funnels, and the messages for bad walls. The agreement
+// of both engines, and resumed runs, are tested in obstacles_test.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -39,7 +39,8 @@ std::string one_disk(double x, double y, double vx, double vy, double radius) {
 
 constexpr const char* methods[] = {"exact", "pairwise", "rollback"};
 
-// At 45 degrees: what flies to the right then flies up; from the other side, what flies to the left flies down.
+// A wall at 45 degrees: a disk that flies to the right is sent upwards; on the other side a disk that flies to the left
+// is sent downwards.
 TEST(InnerWall, ReflectsOnBothSides) {
   const std::string wall = "[[walls]]\nfrom = [8.0, 8.0]\nto = [12.0, 12.0]\n";
   for (const char* method : methods) {
@@ -50,14 +51,14 @@ TEST(InnerWall, ReflectsOnBothSides) {
     const State down = run_to_end(scene_with(method, "", wall + one_disk(16.0, 10.0, -2.0, 0.0, 0.5), 4.0));
     EXPECT_NEAR(down.disks.vx[0], 0.0, 1e-12) << method;
     EXPECT_NEAR(down.disks.vy[0], -2.0, 1e-12) << method;
-    // The centre turns where it is a radius away from the line.
+    // The centre turns at a distance of a radius from the line.
     const double turn = 10.0 + 0.5 * std::numbers::sqrt2;
     EXPECT_NEAR(down.disks.x[0], turn, 1e-9) << method;
   }
 }
 
-// Two at once: the one that is listed first, not the one in the first cell. So the scene with x and y exchanged has the
-// exchanged bits.
+// If a disk touches two walls at once, the one listed first in the file is met first, not the one in the first cell. So
+// the scene with x and y exchanged has the exchanged bits.
 TEST(InnerWall, OfTwoTouchedInOneFrameTheFirstOfTheListIsMetFirst) {
   const auto after_two_frames = [](const std::string& walls) {
     const Scene scene = parse_scene("[box]\nwidth = 20.0\nheight = 20.0\n" + walls + one_disk(10, 10, 1, 1, 0.5) +
@@ -76,8 +77,8 @@ TEST(InnerWall, OfTwoTouchedInOneFrameTheFirstOfTheListIsMetFirst) {
   EXPECT_EQ(one.disks.y[0], exchanged.disks.x[0]);
 }
 
-// Where segments join, a disk that dissipation could bring to rest touches one thing, not two: it bounces off the joint
-// as it does off one segment, at a speed that a disk squeezed between two would not keep.
+// At a joint of segments a disk makes one contact, not two, also in scenes where dissipation could bring disks to rest:
+// it bounces as from one segment, with a speed that a disk squeezed between two walls would not keep.
 TEST(InnerWall, AJointBouncesAsOneSegmentDoes) {
   const auto after_bounce = [](const std::string& walls) {
     const Scene scene =
@@ -89,12 +90,16 @@ TEST(InnerWall, AJointBouncesAsOneSegmentDoes) {
   const State flat = after_bounce("[[walls]]\npoints = [[2.0, 1.0], [8.0, 1.0]]\n");
   EXPECT_NEAR(flat.disks.vy[0], 0.0828, 0.005);  // sqrt(0.02) - 0.5 (0.4 - sqrt(0.08)), to first order in dt
   const std::string joints[] = {
-      "[[walls]]\npoints = [[2.0, 1.0], [5.0, 1.0], [8.0, 1.0]]\n",              // of a straight line
-      "[[walls]]\npoints = [[2.0, 1.0], [4.99, 1.0], [8.0, 1.0]]\n",             // beside the disk
-      "[[walls]]\npoints = [[2.0, 0.5], [5.0, 1.0], [8.0, 0.5]]\n",              // a peak
-      "[[walls]]\npoints = [[5.0, 1.0], [8.0, 0.5], [2.0, 0.5], [5.0, 1.0]]\n",  // of the last segment and the first
+      "[[walls]]\npoints = [[2.0, 1.0], [5.0, 1.0], [8.0, 1.0]]\n",              // a joint of a straight wall
+      "[[walls]]\npoints = [[2.0, 1.0], [4.99, 1.0], [8.0, 1.0]]\n",             // a joint beside the disk
+      "[[walls]]\npoints = [[2.0, 0.5], [5.0, 1.0], [8.0, 0.5]]\n",              // a joint at a peak
+      "[[walls]]\npoints = [[5.0, 1.0], [8.0, 0.5], [2.0, 0.5], [5.0, 1.0]]\n",  // the joint of the last segment with
+                                                                                 // the first
       "[[walls]]\nfrom = [2.0, 1.0]\nto = [8.0, 1.0]\n[[walls]]\nfrom = [5.0, 0.2]\nto = [5.0, 1.0]\n",  // a support
-      "[[walls]]\nfrom = [2.0, 0.7]\nto = [5.0, 1.0]\n[[walls]]\nfrom = [8.0, 0.7]\nto = [5.0, 1.0]\n",  // of two walls
+                                                                                                         // below the
+                                                                                                         // wall
+      "[[walls]]\nfrom = [2.0, 0.7]\nto = [5.0, 1.0]\n[[walls]]\nfrom = [8.0, 0.7]\nto = [5.0, 1.0]\n",  // a joint of
+                                                                                                         // two walls
   };
   for (const std::string& joint : joints) {
     const State state = after_bounce(joint);
@@ -104,8 +109,8 @@ TEST(InnerWall, AJointBouncesAsOneSegmentDoes) {
   }
 }
 
-// A disk that a step takes into a straight wall beside a joint, too, bounces off the side of one segment and not off
-// the end of the other, whichever comes first: rollback sent it back askew.
+// The same for a disk that a step takes into a straight wall beside a joint: it bounces off the side of one segment,
+// not off the end of the other, whichever is listed first. Rollback once sent it back obliquely.
 TEST(InnerWall, ABounceBesideAJointIsThatOfTheStraightWall) {
   for (const char* method : {"pairwise", "rollback"}) {
     const auto after_bounce = [&](const std::string& points) {
@@ -120,7 +125,7 @@ TEST(InnerWall, ABounceBesideAJointIsThatOfTheStraightWall) {
     EXPECT_NEAR(straight.disks.vy[0], 2.0, 1e-12);
     for (int k = 0; k <= 20; ++k) {
       const double at = 4.5 + 0.05 * k;
-      if (at > 5.0 && at < 5.09) continue;  // the centre is at 5.01 when it touches, at 5.08 when the step ends
+      if (at > 5.0 && at < 5.09) continue;  // the centre is at 5.01 at the contact and at 5.08 at the end of the step
       const std::string joint = fmt::format("[{}, 1.0]", at);
       for (const std::string& points :
            {"[1.0, 1.0], " + joint + ", [19.0, 1.0]", "[19.0, 1.0], " + joint + ", [1.0, 1.0]"}) {
@@ -133,7 +138,7 @@ TEST(InnerWall, ABounceBesideAJointIsThatOfTheStraightWall) {
   }
 }
 
-// In an inner corner a disk does touch two: it lies there, and both bear it.
+// In an inner corner a disk does touch two walls, and both bear it.
 TEST(InnerWall, AnInnerCornerBearsOnBothSides) {
   const std::string corner = "[[walls]]\npoints = [[2.0, 8.0], [10.0, 4.0], [18.0, 8.0]]\nrestitution = 0.5\n";
   const Scene scene = scene_with("pairwise", "gravity = 0.5", corner + one_disk(10.0, 4.7, 0.0, 0.0, 0.5), 20.0);
@@ -151,7 +156,8 @@ TEST(InnerWall, HasARestitutionOfItsOwn) {
   }
 }
 
-// The end of a wall is a disk of radius 0: half a radius off it, the normal makes 30 degrees with the path.
+// The end of a wall acts as a disk of radius 0: at half a radius beside it the normal makes an angle of 30 degrees with
+// the path.
 TEST(InnerWall, EndsAreRound) {
   const std::string wall = "[[walls]]\nfrom = [10.0, 10.0]\nto = [10.0, 2.0]\n";
   for (const char* method : methods) {
@@ -161,7 +167,7 @@ TEST(InnerWall, EndsAreRound) {
   }
 }
 
-// A disk goes through a slit that is wider than it by a hundredth, and not through one that is narrower.
+// A disk passes through a slit wider than itself by a hundredth, and not through one narrower by as much.
 TEST(InnerWall, SlitsLetThroughWhatFits) {
   for (const double width : {2.01, 1.99}) {
     const std::string walls = fmt::format(
@@ -175,8 +181,7 @@ TEST(InnerWall, SlitsLetThroughWhatFits) {
   }
 }
 
-// Under gravity on a slope, from rest: after a bounce on a slope of 45 degrees it flies off horizontally, as fast as it
-// fell.
+// A disk falls from rest onto a slope of 45 degrees: after the bounce it flies horizontally, as fast as it fell.
 TEST(InnerWall, SlopesTurnFallIntoFlight) {
   const std::string slope = "[[walls]]\nfrom = [2.0, 14.0]\nto = [12.0, 4.0]\n";
   const Scene scene = scene_with("exact", "gravity = 1.0", slope + one_disk(5.0, 15.0, 0.0, 0.0, 0.5), 3.0);
@@ -187,7 +192,7 @@ TEST(InnerWall, SlopesTurnFallIntoFlight) {
   EXPECT_NEAR(energy_of(state.disks, 1.0).total(), 30.0, 1e-12);
 }
 
-// An acute wedge, elastic, under gravity: thousands of contacts, none of them with a gap or an overlap to speak of.
+// An elastic acute wedge under gravity: thousands of contacts, none with a noticeable gap or overlap.
 TEST(InnerWall, AnAcuteWedgeHoldsADisk) {
   const std::string wedge = "[[walls]]\npoints = [[9.0, 19.0], [10.0, 1.0], [11.0, 19.0]]\n";
   const Scene scene = scene_with("exact", "gravity = 5.0", wedge + one_disk(10.1, 14.0, 0.3, 0.0, 0.2), 400.0);
@@ -202,8 +207,8 @@ TEST(InnerWall, AnAcuteWedgeHoldsADisk) {
   EXPECT_LT(std::abs(state.disks.x[0] - 10.0), 1.0);
 }
 
-// Two bounces in a right angle, whatever its slope, take a path to its mirror image in the corner's point moved in by a
-// radius along both walls.
+// In a right angle of any orientation two bounces turn a path into its mirror image in a point: the corner, moved in by
+// a radius along both walls.
 TEST(InnerWall, ARightAngleTurnsAPathBack) {
   for (const double angle : {0.1, 0.7, 1.3}) {
     const Vec2 along{std::cos(angle), std::sin(angle)};
@@ -225,7 +230,7 @@ TEST(InnerWall, ARightAngleTurnsAPathBack) {
   }
 }
 
-// By the crossings of a ray.
+// Counts the crossings of a ray with the polygon.
 bool is_inside(const std::vector<Vec2>& polygon, double x, double y) {
   bool inside = false;
   for (std::size_t k = 1; k < polygon.size(); ++k) {
@@ -236,7 +241,7 @@ bool is_inside(const std::vector<Vec2>& polygon, double x, double y) {
   return inside;
 }
 
-// Billiards within and around a closed line with an acute and an obtuse corner.
+// Disks inside and outside a closed line with an acute and an obtuse corner.
 TEST(InnerWall, NoDiskCrossesAClosedLine) {
   const std::string wall = "[[walls]]\npoints = [[3, 3], [17, 5], [12, 9], [16, 17], [5, 14], [3, 3]]\n";
   const std::string gas =
@@ -270,7 +275,7 @@ TEST(BilliardsBreak, PocketsTakeDisks) {
 TEST(InnerSink, TakesADiskWhenItTouches) {
   const std::string pocket = "[[walls]]\nfrom = [10.0, 5.0]\nto = [10.0, 15.0]\nkind = \"sink\"\n";
   for (const char* method : methods) {
-    // Touches at t = 2.25.
+    // The disk touches the sink at t = 2.25.
     const std::string rest = pocket + one_disk(5.0, 10.0, 2.0, 0.0, 0.5);
     EXPECT_EQ(run_to_end(scene_with(method, "", rest, 2.24)).counters.removed, 0U) << method;
     const State gone = run_to_end(scene_with(method, "", rest, 2.26));
@@ -279,7 +284,7 @@ TEST(InnerSink, TakesADiskWhenItTouches) {
   }
 }
 
-// Small disks over an opening from x = 8 to 12, each in a column of its own.
+// Small disks above an opening from x = 8 to 12, each in a column of its own.
 std::string falling_disks(int disks) {
   std::string places, velocities;
   for (int k = 0; k < disks; ++k) {
@@ -291,7 +296,8 @@ std::string falling_disks(int disks) {
                      places, velocities);
 }
 
-// Touched together with a wall or a side that it lies along, whichever rounding, or the file, puts first.
+// A sink that lies along a wall or side is touched together with it, and takes the disk, whichever comes first by
+// rounding or in the file.
 TEST(InnerSink, IsAnOpeningInAWall) {
   constexpr int disks = 60;
   const auto line = [](double x) { return fmt::format("[{}, {}]", x, 3.0 + 4.4 / 18.0 * (x - 1.0)); };
@@ -304,13 +310,13 @@ TEST(InnerSink, IsAnOpeningInAWall) {
         const State end = run_to_end(scene_with(method, physics, walls + falling_disks(disks), 8.0));
         EXPECT_EQ(end.counters.removed, static_cast<Count>(disks)) << method << ", " << physics << "\n" << walls;
         EXPECT_EQ(end.counters.wall_collisions, 0U) << method << ", " << physics << "\n" << walls;
-        EXPECT_EQ(end.validity.wall.overlap.size, 0.0) << "an opening is no wall to lie in";
+        EXPECT_EQ(end.validity.wall.overlap.size, 0.0) << "a disk in an opening must not count as overlapping a wall";
       }
     }
   }
 }
 
-// A wall before it, as thin as it may be, keeps disks from it; so does the rim.
+// A wall in front of a sink, however thin, keeps disks from it; so does the rim beside it.
 TEST(InnerSink, IsNotReachedThroughAWall) {
   const std::string hidden =
       "[[walls]]\nfrom = [5.0, 3.0]\nto = [15.0, 3.0]\n[[walls]]\nfrom = [5.0, 2.9999]\nto = [15.0, "
@@ -325,7 +331,7 @@ TEST(InnerSink, IsNotReachedThroughAWall) {
   }
 }
 
-// A disk that goes 8 radii in dt, from 8 to 12 across the sink: steps are split, and sinks asked after each part.
+// A disk moves by 8 radii in dt, from 8 to 12 across the sink: steps are split, and sinks are tested after each part.
 TEST(InnerSink, IsNotCrossedInAStepThatIsSplit) {
   const std::string pocket = "[[walls]]\nfrom = [10.0, 5.0]\nto = [10.0, 15.0]\nkind = \"sink\"\n";
   for (const char* method : methods) {
@@ -334,8 +340,7 @@ TEST(InnerSink, IsNotCrossedInAStepThatIsSplit) {
   }
 }
 
-// Disks come to rest in a funnel that is closed: its walls bear them.
-// One along a part of a side: no source lets a disk in there, whatever rounding makes of where the side is.
+// A sink along a part of a side: a source at that side must emit no disk there, however the side's place is rounded.
 TEST(InnerSink, LetsNoDiskInThroughASide) {
   for (const char* method : methods) {
     Count emitted[2] = {};
@@ -356,6 +361,7 @@ TEST(InnerSink, LetsNoDiskInThroughASide) {
   }
 }
 
+// Disks come to rest in a closed funnel, and its walls bear them.
 TEST(InnerWall, BearsAPile) {
   const std::string funnel =
       "[[walls]]\npoints = [[0.0, 10.0], [9.8, 4.0], [10.2, 4.0], [20.0, 10.0]]\nrestitution = 0.4\n";

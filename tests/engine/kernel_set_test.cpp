@@ -1,4 +1,4 @@
-// CAROM_KERNELS: what it chooses, and that every kernel with several versions follows it.
+// The environment variable CAROM_KERNELS, and that every kernel with several versions follows it.
 #include "core/base/kernel_set.hpp"
 
 #include <gmock/gmock.h>

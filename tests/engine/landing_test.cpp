@@ -1,5 +1,5 @@
-// Disks that land at the longest safe step overlap by no more than a round of resolving is repeated for
-// (core/step/step_rounds.hpp), also those that a wall throws back onto others in the same step.
+// Disks that land at the longest safe step overlap by no more than the limit below which resolving is not repeated
+// (core/step/step_rounds.hpp); this includes disks that a wall throws back onto others in the same step.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,8 +14,8 @@
 namespace carom {
 namespace {
 
-// Silos of 200, poured with these seeds: among them are some in which an impact returns a disk into the wall, to the
-// very place where its drift ended; it then lay up to 4 % of its radius beyond the wall at the end of a step.
+// Silos of 200 disks, poured with these seeds. In some of them an impact sends a disk back into the wall, to the very
+// place where its drift ended; such disks once lay up to 4 % of their radius beyond the wall at the end of a step.
 TEST(LongLanding, LeavesNoDiskPressedIntoAWallOrAnother) {
   test::Silo silo{200, 2.0, 0.4, 0.6, 0.01};
   const double fall = std::sqrt(2.0 * test::silo_scene(silo).box.height);

@@ -1,4 +1,5 @@
-// Grids for 10^9 disks: their keys, which have 32 bits, count every cell. No disk is made, so no memory is needed.
+// Grids for 10^9 disks: their keys, of 32 bits, are enough for every cell. No disks are made, so little memory is
+// needed.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,10 +17,10 @@ constexpr std::size_t disks = 1'000'000'000;
 void expect_in_corner(const CellGrid& grid, const Domain& box) {
   const GridLevel& last = grid.levels.back();
   EXPECT_LT(key_of(last, box.width, box.height), grid.keys);
-  EXPECT_GT(key_of(last, box.width, box.height), grid.keys / 4) << "the far corner is no small number";
+  EXPECT_GT(key_of(last, box.width, box.height), grid.keys / 4) << "the key of the far corner has overflowed";
 }
 
-// The keys counted in 64 bits.
+// The number of keys is compared with a count in 64 bits.
 void expect_counted(const Domain& box, double radius, const std::vector<std::size_t>& count) {
   CellGrid grid;
   make_grid(box, radius, count, grid);
@@ -46,7 +47,7 @@ void expect_counted_in_tiles(const Domain& box, double radius, const std::vector
   expect_in_corner(grid, box);
 }
 
-// Kernels read keys as signed numbers.
+// Kernels read keys as signed numbers, so they must have at most 31 bits.
 TEST(LargeGrid, KeysOfTheMostDisksHave31Bits) {
   constexpr std::size_t most = 4'000'000'000;
   for (const double aspect : {1.0, 1e-12, 1e12}) {
@@ -66,7 +67,7 @@ TEST(LargeGrid, KeysOfTheMostDisksHave31Bits) {
 }
 
 TEST(LargeGrid, KeysCountTheCellsOfABillionDisks) {
-  // Dense and loose, square, long and high; one radius, and two classes of half the disks each.
+  // Dense and dilute systems in square, long and high boxes; one radius, and two classes with half of the disks each.
   for (const double side : {4e4, 1e6}) {
     for (const double aspect : {1.0, 1e-4, 1e4}) {
       Domain box;
@@ -80,7 +81,7 @@ TEST(LargeGrid, KeysCountTheCellsOfABillionDisks) {
   }
 }
 
-// A channel of one file of disks.
+// A channel as wide as one disk.
 TEST(LargeGrid, TilesOfANarrowBoxAreNoMoreThan16BitsNumber) {
   for (const double aspect : {1e6, 1e9, 1e-6, 1e-9}) {
     for (const std::size_t all : {std::size_t{100'000}, std::size_t{5'000'000}, disks}) {
@@ -97,7 +98,8 @@ TEST(LargeGrid, TilesOfANarrowBoxAreNoMoreThan16BitsNumber) {
   }
 }
 
-// Were a tile's power of two of cells left to rounding, cells could hold 3.5 disks or 7; they have room for eight.
+// If rounding decided on the number of cells of a tile, a power of two, cells could have 3.5 disks or 7; they have room
+// for eight.
 TEST(LargeGrid, CellsOfEvenTilesHoldAsManyDisksWhateverTheirNumber) {
   for (std::size_t all = 1'000'000; all < 3'000'000'000; all += all / 7) {
     Domain box;

@@ -1,4 +1,4 @@
-// More disks, contacts and cells than numbers of 32 bits are for: refused, or found all the same.
+// More disks, contacts or cells than 32-bit numbers can count: they are refused, or handled correctly.
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 
@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t beyond = std::size_t{1} << 32U;
 
-// What the call throws, and that it is a RunError.
+// The text of the RunError that the call throws.
 template <class Call>
 std::string failure_of(Call&& call) {
   try {
@@ -33,7 +33,7 @@ std::string failure_of(Call&& call) {
   return "nothing";
 }
 
-// Memory of zeros, of which only the pages that are touched exist; null where the system does not give so much.
+// Zeroed memory of which only the pages touched exist; null if the system does not provide that much.
 class SparseMemory {
  public:
   explicit SparseMemory(std::size_t bytes) : bytes_(bytes) {
@@ -53,7 +53,7 @@ class SparseMemory {
   void* begin_ = nullptr;
 };
 
-// Cell 2^29 has the slots from 2^32 on.
+// The slots of cell 2^29 start at 2^32.
 TEST(ManyDisks, ListKernelsReadTheRadiiOfLateCells) {
   constexpr std::uint32_t cell = (1U << 29U) + 1U;
   const SparseMemory cells((std::size_t{cell} + 1) * sizeof(SlotCell));

@@ -1,5 +1,5 @@
-// Steps of mirrored scenes mirror each other where disks just touch at a step's start, or were pushed into a side:
-// rounding, which the four sides have each in its own way, decides nothing.
+// Steps of mirrored scenes mirror each other if disks just touch at the start of a step, or were pushed into a side:
+// rounding, which differs between the four sides, must not decide.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,8 @@
 namespace carom {
 namespace {
 
-// A disk as one sees it who stands at a side, looking into the box: `off` the side, and `along` it.
+// Coordinates relative to a side, looking into the box: `off` is the distance from the side, `along` the place along
+// it.
 struct AtSide {
   double off = 0.0, along = 0.0;
 };
@@ -34,7 +35,7 @@ Disk disk_at(Side side, const Domain& box, double radius, AtSide place, AtSide v
   return d;
 }
 
-// How far disk `id` is off the side.
+// The distance of disk `id` from the side.
 double distance_to(Side side, const Domain& box, const Disks& disks, DiskId id) {
   for (std::size_t i = 0; i < disks.size(); ++i) {
     if (disks.id[i] != id) continue;
@@ -51,8 +52,8 @@ State after_a_step(const Scene& scene, const State& start, bool reference) {
   return engine->state();
 }
 
-// Two disks at rest, one of which presses the other, by an overlap of 3 % of their radii, into a side: what is left of
-// that between the disk and the side is the same at all sides.
+// Two disks at rest, overlapping by 3 % of their radii, one of which presses the other into a side: the overlap that
+// remains at the side must be the same for all sides.
 TEST(MirroredSteps, DisksArePushedIntoEachSideAlike) {
   test::Draws draws(1);
   for (int k = 0; k < 100; ++k) {
@@ -71,7 +72,7 @@ TEST(MirroredSteps, DisksArePushedIntoEachSideAlike) {
   }
 }
 
-// A disk that just touches a side when a step begins, and moves into it: it bounces within the step, at all sides.
+// A disk that just touches a side at the start of a step, and moves into it, must bounce within the step, at all sides.
 TEST(MirroredSteps, WhatJustTouchesASideBouncesWithinTheStep) {
   test::Draws draws(2);
   for (const Method method : test::stepping_methods) {
@@ -91,8 +92,8 @@ TEST(MirroredSteps, WhatJustTouchesASideBouncesWithinTheStep) {
   }
 }
 
-// Likewise two disks that just touch, whichever way their line of centres lies, and a fixed disk: they collide within
-// the step, and not late.
+// The same for two disks that just touch, with any direction of the line of centres, and for a fixed disk: they collide
+// within the step, and not late.
 TEST(MirroredSteps, WhatJustTouchAndApproachCollideWithinTheStep) {
   test::Draws draws(3);
   const Scene scene = test::scene_of(Method::pairwise, 10.0, 10.0, 0.01, 1.0);

@@ -1,6 +1,6 @@
-// Sides that move beside sources, fixed disks and inner walls: closed forms, work, disks that are crushed against what
-// does not yield, and what is refused. That both engines agree on them, and resumed runs, is obstacles_test's and
-// parallel_bits_test's.
+// Moving sides together with sources, fixed disks and inner walls: closed forms, work, disks crushed against obstacles,
+// and scenes that are refused. The agreement of both engines, and resumed runs, are tested in obstacles_test and
+// parallel_bits_test.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -53,8 +53,8 @@ const std::string gas =
     "[[disks]]\ncount = 60\npositions = \"random\"\nvelocities = { maxwell = 3.0 }\nradius = { uniform = [0.2, 0.5] }\n"
     "mass = { uniform = [1, 9] }\n";
 
-// To the obstacle at t = 3, where its edge is at x = 6, and back at speed 1; the piston, at 20 - t, meets the disk's
-// edge, at 8 + (t - 3), at t = 7.5, and sends it back at speed 3.
+// The ball reaches the obstacle at t = 3, with its edge at x = 6, and comes back at speed 1. The piston, at 20 - t,
+// meets the ball's edge, at 8 + (t - 3), at t = 7.5, and sends it back at speed 3.
 TEST(MovingSideBesideObstacles, ABallBetweenThem) {
   for (const char* method : methods) {
     for (const std::string& obstacle : {peg, wall}) {
@@ -69,12 +69,13 @@ TEST(MovingSideBesideObstacles, ABallBetweenThem) {
   }
 }
 
-// Each time round the ball gains twice the piston's speed; when its room is used up the run ends, with time and place.
+// In each round the ball gains twice the piston's speed; when there is no more room the run ends, and the message has
+// time and place.
 TEST(LongMovingSideBesideObstacles, StopsWhereItWouldCrushADisk) {
   for (const char* method : methods) {
     for (const std::string& obstacle : {peg, wall}) {
       SCOPED_TRACE(std::string(method) + "\n" + obstacle);
-      const Scene scene = scene_with(piston, obstacle + ball, method, 13.5);  // room for the ball until t = 12
+      const Scene scene = scene_with(piston, obstacle + ball, method, 13.5);  // there is room for the ball until t = 12
       State state = initial_state(scene);
       const auto engine = make_parallel_engine(scene, state, {2, 1});
       std::string error;
@@ -90,7 +91,7 @@ TEST(LongMovingSideBesideObstacles, StopsWhereItWouldCrushADisk) {
   }
 }
 
-// Elastic: what the energy rises by is the work, also where disks come in and bounce off fixed ones.
+// Elastic disks: the energy gained is the work, also with disks that come in and with fixed disks.
 TEST(MovingSideBesideObstacles, DoesTheWorkThatIsGained) {
   const std::string sides =
       "left = { motion = { velocity = [0.1, 0] } }\nright = { motion = { vibrate = [0.3, 0], period = 1.3 } }\n"
@@ -117,14 +118,14 @@ TEST(MovingSideBesideObstacles, DoesTheWorkThatIsGained) {
       const double after = energy_of(end.disks, scene.physics.gravity).total();
       const double given = energy_of(start.disks, scene.physics.gravity).total() + end.counters.emitted_energy;
       EXPECT_GT(energy_from_sides(end), 0.02 * given);
-      const double allowed = exact || physics.empty() ? 1e-12 : 1e-2;  // stepping under gravity is of first order
+      const double allowed = exact || physics.empty() ? 1e-12 : 1e-2;  // stepping under gravity is only of first order
       EXPECT_NEAR(given + energy_from_sides(end), after, allowed * after);
       EXPECT_LE(deepest, exact ? 1e-12 : 0.25);
     }
   }
 }
 
-// At the side where that stands, and inwards in its frame.
+// Disks start at the moving side's place, and move inwards in its frame.
 TEST(SourceAtAMovingSide, SendsDisksInItsFrame) {
   const std::string source =
       "[[sources]]\nside = \"right\"\nrate = 2.0\nradius = 0.5\nmass = 1.0\nvelocities = { maxwell = 1.0 }\n";
@@ -144,7 +145,7 @@ TEST(SourceAtAMovingSide, SendsDisksInItsFrame) {
   }
 }
 
-// From the part of a region that a side has not swept over, and none of them beyond it.
+// Disks come from the part of a region that the side has not yet swept over, and none is beyond the side.
 TEST(SourceBesideAMovingSide, EmitsWhereThereIsRoom) {
   const std::string source = "[[sources]]\nregion = [12, 2, 18, 18]\nrate = 40.0\nradius = 0.1\nmass = 1.0\n";
   for (const char* method : methods) {
@@ -158,7 +159,7 @@ TEST(SourceBesideAMovingSide, EmitsWhereThereIsRoom) {
   }
 }
 
-// Sinks beside a piston: inner ones and a side.
+// Inner sinks, and a side that is a sink, together with a piston.
 TEST(SinkBesideAMovingSide, TakesWhatThePistonDrivesIntoIt) {
   const std::string sink = "[[walls]]\nfrom = [3, 0]\nto = [3, 20]\nkind = \"sink\"\n";
   for (const char* method : methods) {
@@ -182,13 +183,14 @@ TEST(BadMotion, RunsIntoWhatDoesNotYield) {
   EXPECT_EQ(refusal(piston, wall + ball, 14.5),
             "motion.toml:5: walls.0: the right side runs into it at t = 14; expected walls where no side comes until "
             "run.t_end = 14.5");
-  const std::string shaken = "bottom = { motion = { vibrate = [0, -0.5], period = 2 } }";  // at first it goes down
+  const std::string shaken =
+      "bottom = { motion = { vibrate = [0, -0.5], period = 2 } }";  // the floor moves down at first
   const auto low_wall = [](double y) { return fmt::format("[[walls]]\nfrom = [5, {}]\nto = [9, {}]\n", y, y); };
   EXPECT_EQ(refusal(shaken, low_wall(1.001) + ball, 9.0), "");
   EXPECT_THAT(refusal(shaken, low_wall(0.999) + ball, 9.0), HasSubstr("the bottom side runs into it at t = 1.4"));
-  EXPECT_EQ(refusal(shaken, low_wall(0.999) + ball, 1.4), "") << "it does not come so far";
+  EXPECT_EQ(refusal(shaken, low_wall(0.999) + ball, 1.4), "") << "the run ends before the floor comes so far";
   EXPECT_THAT(refusal(shaken, low_wall(0.2) + ball, 9.0), HasSubstr("the bottom side runs into it at t = 0;"));
-  // A side may leave what it touches.
+  // A side may move away from a wall that it touches.
   EXPECT_EQ(refusal("right = { place = 15, motion = { velocity = [1, 0] } }",
                     "[[walls]]\nfrom = [12, 5]\nto = [15, 5]\n" + ball, 2.0),
             "");

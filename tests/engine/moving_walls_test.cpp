@@ -1,5 +1,6 @@
-// Inner walls that move: contacts at their times, work and momentum, the same in a frame that moves along, where sides
-// do the same, in both engines and from any state on; what is refused, and where disks are crushed.
+// Moving inner walls: times of contacts, work and momentum; the same results in a moving frame, and with a side that
+// moves in the same way; the same bits from both engines and from any state on; scenes that are refused, and disks that
+// are crushed.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -52,7 +53,7 @@ std::string gas(int count, double radius, const std::string& more = "") {
       count, radius, more);
 }
 
-// Times 1.5, 4.625 and 6.5: off the paddle, off the side, off the paddle again.
+// At 1.5, 4.625 and 6.5 the disk bounces off the paddle, the side, and the paddle again.
 TEST(MovingWall, IsAPaddle) {
   for (const char* method : methods) {
     SCOPED_TRACE(method);
@@ -66,11 +67,12 @@ TEST(MovingWall, IsAPaddle) {
     EXPECT_NEAR(end.counters.wall_work, 32.0, 1e-11);
     EXPECT_NEAR(end.counters.wall_push[0], 32.0, 1e-11);
     EXPECT_EQ(end.counters.wall_push[1], 0.0);
-    EXPECT_TRUE(energy_warnings(scene, run_start(initial_state(scene), scene), end).empty()) << "work is no gain";
+    EXPECT_TRUE(energy_warnings(scene, run_start(initial_state(scene), scene), end).empty())
+        << "the work of walls must not count as an unexplained gain";
   }
 }
 
-// What happens at a wall at rest, half a radius off its end, happens at one that moves to a disk that moves along.
+// A disk meets the end of a wall, half a radius beside it: at rest, and the same in a moving frame.
 TEST(MovingWall, HasRoundEnds) {
   for (const char* method : methods) {
     SCOPED_TRACE(method);
@@ -85,7 +87,7 @@ TEST(MovingWall, HasRoundEnds) {
   }
 }
 
-// A gas and walls that all drift along, more than once round a periodic box, against the same at rest.
+// A gas and walls that drift together, more than once around a periodic box, compared with the same at rest.
 TEST(MovingWall, IsOneAtRestInAFrameThatMovesAlong) {
   const std::string sides = "left = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"";
   const auto scene_at = [&](const char* method, double vx, double vy) {
@@ -104,7 +106,7 @@ TEST(MovingWall, IsOneAtRestInAFrameThatMovesAlong) {
     EXPECT_EQ(a.counters.collisions, b.counters.collisions);
     EXPECT_EQ(a.counters.wall_collisions, b.counters.wall_collisions);
     EXPECT_GT(a.counters.wall_collisions, 3U);
-    if (std::string(method) == "pairwise") continue;  // its steps are split at the higher speed
+    if (std::string(method) == "pairwise") continue;  // its steps are split because of the higher speed
     for (std::size_t i = 0; i < a.disks.size(); ++i) {
       const Vec2 apart = nearest_image({std::fmod(a.disks.x[i] + 26.0 - b.disks.x[i], 20.0),
                                         std::fmod(a.disks.y[i] - 32.0 + 40.0 - b.disks.y[i], 20.0)},
@@ -116,7 +118,7 @@ TEST(MovingWall, IsOneAtRestInAFrameThatMovesAlong) {
   }
 }
 
-// A floor that vibrates, as a side and as an inner wall at the same place.
+// A vibrating floor, as a side and as an inner wall at the same place.
 TEST(MovingWall, IsAFloorThatVibrates) {
   for (const char* method : {"exact", "pairwise"}) {
     for (const char* shape : {"parabola", "sine"}) {
@@ -137,7 +139,7 @@ TEST(MovingWall, IsAFloorThatVibrates) {
   }
 }
 
-// Polylines and single segments that move in all ways there are, in a gas.
+// Polylines and single segments in a gas, with all kinds of motion.
 std::string stirrers() {
   return wall("[[3, 4], [6, 8], [4, 12]]", "velocity = [0.4, 0.1]") +
          wall("[[12, 3], [15, 6]]", "vibrate = [0.8, -0.5], period = 1.3") +
@@ -145,7 +147,7 @@ std::string stirrers() {
          wall("[[2, 16], [6, 18]]", "");
 }
 
-// Elastic: what the energy rises by is the work, and the momentum what sides and walls give.
+// Elastic disks: the energy gained is the work, and the momentum gained is that from sides and walls.
 TEST(LongMovingWall, DoesTheWorkThatIsGained) {
   for (const char* method : methods) {
     for (const std::string physics : {"", "[physics]\ngravity = [0.1, -0.3]\n"}) {
@@ -162,14 +164,14 @@ TEST(LongMovingWall, DoesTheWorkThatIsGained) {
       const double after = energy_of(end.disks, scene.physics.gravity).total();
       const double given = energy_of(start.disks, scene.physics.gravity).total();
       EXPECT_GT(end.counters.wall_work, 0.1 * given);
-      const double allowed = exact || physics.empty() ? 1e-12 : 1e-2;  // stepping under gravity is of first order
+      const double allowed = exact || physics.empty() ? 1e-12 : 1e-2;  // stepping under gravity is only of first order
       EXPECT_NEAR(given + end.counters.wall_work, after, allowed * after);
       EXPECT_LE(deepest, exact ? 1e-11 : 0.25);
     }
   }
 }
 
-// In a box whose sides are periodic, and without other obstacles, all momentum comes from the walls that move.
+// In a box with periodic sides and no other obstacles all momentum comes from the moving walls.
 TEST(MovingWall, GivesTheMomentumThatIsGained) {
   const std::string sides = "left = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"";
   for (const char* method : methods) {
@@ -188,7 +190,7 @@ TEST(MovingWall, GivesTheMomentumThatIsGained) {
   }
 }
 
-// Rough disks: friction acts in the wall's frame, and the work is that of all the force.
+// Rough disks: friction acts in the wall's frame, and the work is that of the whole force.
 TEST(MovingWall, RubsInItsFrame) {
   for (const char* method : {"exact", "pairwise"}) {
     SCOPED_TRACE(method);
@@ -204,7 +206,7 @@ TEST(MovingWall, RubsInItsFrame) {
   }
 }
 
-// A lift: the disk comes to rest on it, and the work is the weight times the way.
+// A lift: the disk comes to rest on it, and the work is the weight times the height.
 TEST(MovingWall, BearsWhatItLifts) {
   const Scene scene = scene_with("",
                                  "[physics]\ngravity = 2.0\nrestitution = 0.3\n" +
@@ -232,7 +234,7 @@ std::string hashes(Engine& engine, double t_end) {
   return all;
 }
 
-// Step by step, on any number of threads; and so a run that goes on from any of its states.
+// The comparison is made after each step, on any number of threads, and with runs that go on from any of these states.
 TEST(LongMovingWall, HasTheSameBitsInBothEnginesAndFromAnyState) {
   const std::string sides = "left = \"periodic\"\nright = \"periodic\"\ntop = { motion = { velocity = [0, -0.1] } }";
   for (const char* method : methods) {
@@ -260,7 +262,7 @@ TEST(LongMovingWall, HasTheSameBitsInBothEnginesAndFromAnyState) {
   }
 }
 
-// Every contact predicted is the first one: on the way there the path overlaps no wall, and there it touches one.
+// Every contact predicted is the first one: before it the path overlaps no wall, and at it the disk touches one.
 TEST(MovingWall, IsMetAtTheFirstContact) {
   const Scene scene = scene_with("left = \"periodic\"\nright = \"periodic\"",
                                  stirrers() + wall("[[17, 4], [19, 9]]", "velocity = [2.5, 0]") +
@@ -270,7 +272,7 @@ TEST(MovingWall, IsMetAtTheFirstContact) {
   Domain box = scene.box;
   box.move_walls(0.325);
   const auto cells = place_obstacles(initial_state(scene).obstacles, box, motions_of(scene));
-  constexpr double length = 0.125;  // of the window: within one piece of each parabola
+  constexpr double length = 0.125;  // length of the window: within one piece of each parabola
   cells->follow(0.325, 0.325 + length);
   const auto deepest = [&](const PathSegment& at, double s) {
     const Domain then = box_at(box, 0.325 + s);
@@ -311,7 +313,7 @@ TEST(MovingWall, MayBeASink) {
   }
 }
 
-// A thin wall that is fast in a long step: the step is split, so that it jumps over no disk.
+// A thin wall that moves fast in a long step: the step is split, so that the wall jumps over no disk.
 TEST(MovingWall, JumpsOverNoDisk) {
   for (const char* method : {"pairwise", "rollback"}) {
     const Scene scene =
@@ -346,7 +348,7 @@ TEST(MovingWall, GoesThroughTheTextOfAScene) {
   EXPECT_TRUE(again.box.inner_walls_move);
 }
 
-// A change of this is a change of physics: see golden_hash_test.
+// If this hash changes the physics has changed: see golden_hash_test.
 TEST(MovingWall, HasTheBitsThatItHad) {
   const Scene scene = load_scene(CAROM_SOURCE_DIR "/scenes/paddle.toml", {{"run.t_end", "10.0"}});
   const State end = test::run_by_engine(scene, initial_state(scene));
@@ -391,12 +393,14 @@ TEST(BadWallMotion, IsRefusedInOneLine) {
       "until run.t_end = 9");
   EXPECT_THAT(refusal(floor, above("vibrate = [0, 0.5], period = 3"), 9.0), overlap);
   EXPECT_THAT(refusal(floor, above("vibrate = [0, 0.5], period = 2, shape = \"sine\""), 9.0), overlap);
-  // In step with the floor, and a tenth above it. Swinging by 0.39 it is 0.01 below it at the upper end.
+  // A wall a tenth above the floor that moves with it. With an amplitude of 0.39 it is 0.01 below the floor at the
+  // upper end.
   EXPECT_EQ(refusal(floor, above("vibrate = [0, 0.5], period = 2"), 9.0), "");
   EXPECT_EQ(refusal(floor, above("vibrate = [0, 0.41], period = 2"), 9.0), "");
   EXPECT_THAT(refusal(floor, above("vibrate = [0, 0.39], period = 2"), 9.0), overlap);
-  EXPECT_EQ(refusal(floor, above("vibrate = [0, 0.39], period = 2"), 0.3), "") << "over before they come so near";
-  // What another side does is seen all the same.
+  EXPECT_EQ(refusal(floor, above("vibrate = [0, 0.39], period = 2"), 0.3), "")
+      << "the run ends before they come so near";
+  // The wall's motion with the floor must not hide the overlap with another side's motion.
   EXPECT_THAT(
       refusal(floor + "\nleft = { motion = { velocity = [0.5, 0] } }", above("vibrate = [0, 0.5], period = 2"), 9.0),
       HasSubstr("the left side comes into the room that it moves through at t = 6"));

@@ -1,5 +1,5 @@
-// The kernel that finds the disks at walls and obstacles: the same disks as WallReach finds one by one, in every
-// version.
+// The kernel that finds the disks near walls and obstacles: in every version it finds the same disks as WallReach,
+// which tests them one by one.
 #include "parallel/stepping/near_walls.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 namespace carom {
 namespace {
 
-// Disks all over the box and a little beyond it.
+// Disks anywhere in the box and a little beyond it.
 Disks drawn_disks(test::Draws& draws, const Domain& box, bool unequal) {
   Disks d;
   d.common_radius = 0.2;
@@ -31,14 +31,14 @@ Disks drawn_disks(test::Draws& draws, const Domain& box, bool unequal) {
   return d;
 }
 
-// Returns how many are found.
+// Returns the largest number of disks found.
 std::size_t expect_same_disks(const Domain& box, bool unequal) {
   test::Draws draws(41);
   const Disks d = drawn_disks(draws, box, unequal);
   const WallReach reach(box);
   std::size_t found = 0;
   for (const auto& [begin, end] : {std::pair{0UL, d.size()}, {1UL, 4UL}, {17UL, 17UL}, {3UL, 602UL}}) {
-    std::vector<std::uint32_t> expected{7};  // it is appended to
+    std::vector<std::uint32_t> expected{7};  // a previous entry: the kernel appends
     for (std::size_t i = begin; i < end; ++i) {
       if (reach.touches(d.x[i], d.y[i], d.radius_of(i))) expected.push_back(static_cast<std::uint32_t>(i));
     }
@@ -74,7 +74,7 @@ TEST(NearWalls, AreThoseOfWallReach) {
   }
 }
 
-// Fixed disks and a segment, and another one that moves or not.
+// Two fixed disks and two segments, one of which may move.
 TEST(NearWalls, AreThoseOfWallReachAmongObstacles) {
   for (const bool moves : {false, true}) {
     for (const bool unequal : {false, true}) {

@@ -1,4 +1,5 @@
-// Which cells are searched around a place: none is missed by the last bit, and those that are stored are the nearest.
+// The cells searched around a place: none is missed because of the last bit, and for cells that are not stored the
+// nearest stored ones are taken.
 #include "parallel/cells/nearby_runs.hpp"
 
 #include <gtest/gtest.h>
@@ -18,8 +19,8 @@ bool holds(const Span& span, std::uint32_t cell, std::uint32_t cells) {
   return (cell + cells - span.first) % cells < span.count;
 }
 
-// A disk just before a border, and one just behind it, exactly as far away as the reach, on either side of a place: the
-// sum and the difference are rounded by more than the disk is off the border.
+// A disk just before or behind a border of cells, exactly at the reach from a place on either side: sum and difference
+// are rounded by more than the disk's distance from the border.
 TEST(SpanAround, HoldsWhatIsExactlyAsFarAwayAsTheReach) {
   constexpr std::uint32_t cells = 30;
   for (const double length : {30.0, 1.0, 77.7}) {
@@ -42,8 +43,8 @@ TEST(SpanAround, HoldsWhatIsExactlyAsFarAwayAsTheReach) {
   }
 }
 
-// Where only some groups of tiles are kept, two at least are left out: with one alone, a disk that has come into it
-// could be nearest to either end. Its rows go to the end that is nearer along the period.
+// If only some groups of tiles are kept, at least two are left out. With a single one, a disk in it could be nearest to
+// either end. Rows left out belong to the end that is nearer along the period.
 TEST(TilesKept, AreAllOrLeaveTwoGroupsOut) {
   Domain box;
   box.width = 100.0;
@@ -60,7 +61,7 @@ TEST(TilesKept, AreAllOrLeaveTwoGroupsOut) {
     const std::uint32_t first = level.stored_rows.first, last = first + level.stored_rows.count - 1;
     for (std::uint32_t row = 0; row < level.rows; ++row) {
       const std::uint32_t place = level.stored_rows.place_of(row, level.rows);
-      const std::uint32_t beyond = (row + level.rows - last) % level.rows;  // rows after the last
+      const std::uint32_t beyond = (row + level.rows - last) % level.rows;  // rows after the last one
       const std::uint32_t before = (first + level.rows - row) % level.rows;
       if (row >= first && row <= last) {
         EXPECT_EQ(place, row - first);
@@ -73,7 +74,8 @@ TEST(TilesKept, AreAllOrLeaveTwoGroupsOut) {
   }
 }
 
-// Tiles follow each other in memory, those of a layer as neighbours, whether all are kept or but some.
+// Each kept cell has its own key, and the tiles of a layer follow each other in memory, whether all tiles are kept or
+// only some.
 void expect_own_keys(const CellGrid& grid, bool wide) {
   std::vector<char> seen(grid.keys, 0);
   for (const GridLevel& level : grid.levels) {
@@ -88,7 +90,7 @@ void expect_own_keys(const CellGrid& grid, bool wide) {
       }
     }
   }
-  EXPECT_EQ(std::count(seen.begin(), seen.end(), 0), 0) << "keys of no cell";
+  EXPECT_EQ(std::count(seen.begin(), seen.end(), 0), 0) << "some keys belong to no cell";
 }
 
 TEST(TilesKept, HaveAKeyOfItsOwnForEachCell) {
@@ -109,7 +111,8 @@ TEST(TilesKept, HaveAKeyOfItsOwnForEachCell) {
   }
 }
 
-// Is this the place of a cell, or of one of the two ends that is as near to it as the other, round the box?
+// Is this the place of the cell, or, if it is not stored, of the end that is nearer across the period (either one if
+// they are equally near)?
 bool is_nearest(const StoredCells& stored, std::uint32_t place, std::uint32_t cell, std::uint32_t cells) {
   const std::uint32_t after_first = (cell + cells - stored.first) % cells;
   if (after_first < stored.count) return place == after_first;
@@ -119,8 +122,8 @@ bool is_nearest(const StoredCells& stored, std::uint32_t place, std::uint32_t ce
          (place == stored.count - 1 && beyond_last <= before_first + 1);
 }
 
-// Each stored cell has a key of its own, and what lies elsewhere is where it is nearest, be the rectangle in the middle
-// of the box or across its sides.
+// Each stored cell has its own key, and cells elsewhere map to the nearest one, for a rectangle in the middle of the
+// box and across its sides.
 TEST(CellsStored, AreThoseOfTheRectangle) {
   for (const SideKind kind : {SideKind::periodic, SideKind::wall}) {
     for (const Vec2 low : {Vec2{20.0, 30.0}, Vec2{-11.0, 55.0}, Vec2{71.0, -5.0}}) {

@@ -1,4 +1,4 @@
-// The scenes of obstacles against what is known of them: the Galton board and the periodic Lorentz gas.
+// The scenes with obstacles compared with known results: the Galton board and the periodic Lorentz gas.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 const std::string folder = CAROM_SOURCE_DIR "/scenes/";
 
-// Where each disk was last seen, every 0.02.
+// The last position of each disk, sampled every 0.02.
 std::map<DiskId, Vec2> last_places(const Scene& scene) {
   const auto engine = make_parallel_engine(scene, initial_state(scene), {1});
   std::map<DiskId, Vec2> last;
@@ -32,14 +32,15 @@ std::map<DiskId, Vec2> last_places(const Scene& scene) {
   return last;
 }
 
-// Twelve rows that each send a disk half a spacing to either side: binomial, as far as a row forgets the one before.
+// Each of twelve rows sends a disk half a spacing to either side. The distribution is binomial as far as a row forgets
+// the one before.
 TEST(GaltonBoard, SpreadsAsThrowsOfACoin) {
   const Scene scene = load_scene(folder + "galton_board.toml", {{"run.t_end", "1200"}});
   double n = 0.0;
   double sum = 0.0;
   double squares = 0.0;
   for (const auto& [id, place] : last_places(scene)) {
-    if (place.y > 2.0) continue;  // still under way
+    if (place.y > 2.0) continue;  // still falling
     n += 1.0;
     sum += place.x - 6.0;
     squares += (place.x - 6.0) * (place.x - 6.0);
@@ -50,7 +51,7 @@ TEST(GaltonBoard, SpreadsAsThrowsOfACoin) {
   EXPECT_NEAR(std::sqrt(squares / n), binomial, 0.1 * binomial);
 }
 
-// Whatever the collapse model does to a disk that rests on a peg: it stays outside.
+// A disk that rests on a peg stays outside it, whatever the collapse model does.
 TEST(GaltonBoard, NoDiskEntersAPeg) {
   for (const char* restitution : {"0", "0.5", "0.75", "1"}) {
     const Scene scene = load_scene(folder + "galton_board.toml", {{"physics.restitution", restitution}});
@@ -75,7 +76,7 @@ TEST(GaltonBoard, NoDiskEntersAPeg) {
   }
 }
 
-// Mean square displacement over 4 t between two times long after the first collisions.
+// The increase of the mean square displacement over 4 t, between two times long after the first collisions.
 double diffusion_of(const Scene& scene, double from) {
   const auto engine = make_parallel_engine(scene, initial_state(scene), {2});
   DisplacementTally tally;
@@ -95,7 +96,7 @@ double diffusion_of(const Scene& scene, double from) {
   return (at_end - at_from) / (4.0 * (scene.run.t_end - from));
 }
 
-// Gaps of w between scatterers of radius 1.
+// Gaps of width w between scatterers of radius 1.
 Scene lorentz_gas(double w) {
   const double spacing = 2.0 + w;
   return load_scene(folder + "lorentz_gas.toml", {{"box.width", std::to_string(10.0 * spacing)},
@@ -108,8 +109,8 @@ double machta_zwanzig(double w) {
   return w * a2 / (std::numbers::pi * (std::sqrt(3.0) * a2 - 2.0 * std::numbers::pi));
 }
 
-// The random walk of Machta and Zwanzig holds for narrow gaps; it is known to be too slow for the widest ones (Klages
-// and Dellago, J. Stat. Phys. 101, 145, 2000). 2000 disks leave an error of 3 %.
+// The random walk of Machta and Zwanzig holds for narrow gaps; for the widest ones it is known to be too slow (Klages
+// and Dellago, J. Stat. Phys. 101, 145, 2000). With 2000 disks the error is 3 %.
 TEST(LorentzGas, DiffusesAsMachtaAndZwanzigSay) {
   EXPECT_NEAR(diffusion_of(lorentz_gas(0.03), 20.0) / machta_zwanzig(0.03), 1.0, 0.12);
   EXPECT_NEAR(diffusion_of(lorentz_gas(0.1), 20.0) / machta_zwanzig(0.1), 1.0, 0.12);

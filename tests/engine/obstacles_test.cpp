@@ -1,5 +1,5 @@
-// Fixed disks: the same bits from both engines on any number of threads and after resume, and the physics of a disk
-// that nothing moves.
+// Fixed disks: the same bits from both engines, on any number of threads and after resume, and the physics of a disk
+// that does not move.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -30,13 +30,13 @@ Scene scene_of(const test::Features& f) {
   return scene;
 }
 
-// Every seventh combination of features, with obstacles.
+// Every seventh combination of features, with obstacles added.
 std::vector<test::Features> features_with_obstacles(const std::string& method, const std::string& sides,
                                                     std::size_t offset) {
   std::vector<test::Features> some;
   const std::vector<test::Features> all = test::all_features(method, sides);
   for (std::size_t k = offset; k < all.size(); k += 7) {
-    if (sides == "moving" && all[k].radii == "wide") continue;  // no room for large disks
+    if (sides == "moving" && all[k].radii == "wide") continue;  // there is no room for large disks
     some.push_back(all[k]);
     some.back().obstacles = true;
   }
@@ -94,8 +94,8 @@ State run_to_end(const Scene& scene) {
 
 const std::string peg = "[[disks]]\nfixed = true\ncount = 1\npositions = [[10.0, 10.0]]\nradius = 1.0\n";
 
-// Off the line of centres by b = 1: the normal at contact makes an angle of asin(b / 2) = 30 degrees with the path, so
-// that the disk is turned by 180 - 60 degrees.
+// The path is off the line of centres by b = 1. The normal at contact makes an angle of asin(b / 2) = 30 degrees with
+// it, so the disk is deflected by 180 - 60 degrees.
 TEST(FixedDisk, ScattersAsAWallThatIsCurved) {
   const std::string flying =
       "[[disks]]\ncount = 1\npositions = [[5.0, 11.0]]\nvelocities = [[2.0, 0.0]]\nradius = 1.0\nmass = 3.0\n";
@@ -110,17 +110,17 @@ TEST(FixedDisk, ScattersAsAWallThatIsCurved) {
   }
 }
 
-// A disk that falls on the top of a fixed one, from rest, comes back to its height, again and again.
+// A disk that falls from rest onto the top of a fixed disk returns to its height, again and again.
 TEST(FixedDisk, BouncesBackToItsHeight) {
   const std::string falling = "[[disks]]\ncount = 1\npositions = [[10.0, 14.0]]\nradius = 1.0\nmass = 3.0\n";
-  // Falls 2 in time 2 with g = 1; after eight falls and rises, t = 32, it is there again.
+  // The disk falls 2 in a time of 2 with g = 1; after eight falls and rises, at t = 32, it is there again.
   const State state = run_to_end(fixed_scene("exact", "gravity = 1.0", peg + falling, 32.0));
   EXPECT_EQ(state.counters.wall_collisions, 8U);
   EXPECT_NEAR(state.disks.y[0], 14.0, 1e-12);
   EXPECT_NEAR(state.disks.vy[0], 0.0, 1e-12);
 }
 
-// Under gravity, from any side, also from below: energy is what a path among obstacles keeps.
+// Under gravity the energy is conserved, whichever way the disk reaches the obstacle, also from below.
 TEST(FixedDisk, KeepsEnergyUnderGravity) {
   const std::string gas =
       "[[disks]]\ncount = 40\npositions = \"random\"\nvelocities = { uniform = 3.0 }\nradius = 0.4\nmass = 2.0\n";
@@ -137,7 +137,7 @@ TEST(FixedDisk, KeepsEnergyUnderGravity) {
   EXPECT_LT(wall_overlap(end.disks, box), 1e-12);
 }
 
-// A disk in the groove between two fixed ones, and three more on top of it: they come to rest and stay.
+// A disk in the groove between two fixed ones, and three more on top of it: they come to rest and stay there.
 TEST(FixedDisk, BearsAPile) {
   const std::string disks =
       "[[disks]]\nfixed = true\ncount = 12\npositions = [[1.0, 2.0], [2.8, 1.7], [4.6, 2.0], [6.4, 1.7], [8.2, 2.0], "
@@ -156,7 +156,8 @@ TEST(FixedDisk, BearsAPile) {
   for (std::size_t i = 0; i < end.disks.size(); ++i) EXPECT_GT(end.disks.y[i], 1.9) << "disk " << end.disks.id[i];
 }
 
-// In few large cells a disk at a periodic side may see an obstacle twice, in the box and beyond the side.
+// With a few large cells the search at a periodic side might find an obstacle twice, inside the box and beyond the
+// side.
 TEST(FixedDisk, IsTouchedOnceAtPeriodicSides) {
   Domain box;
   box.width = 15.0;
@@ -181,7 +182,7 @@ TEST(FixedDisk, IsTouchedOnceAtPeriodicSides) {
   EXPECT_GT(touched, 0);
 }
 
-// What comes from a source finds room beside obstacles only.
+// Sources emit disks only where obstacles leave room.
 TEST(FixedDisk, SourcesKeepClearOfIt) {
   const std::string source = "[[sources]]\nregion = [8.0, 8.0, 12.0, 12.0]\nrate = 50.0\nradius = 0.1\nmass = 1.0\n";
   for (const char* method : {"exact", "pairwise", "rollback"}) {
@@ -215,14 +216,14 @@ TEST(BadFixedDisk, OneLineEach) {
 const std::string two_pegs =
     "[[disks]]\nfixed = true\ncount = 2\npositions = [[0.5, 5.0], [1.0, 5.0]]\nradius = 1.0\n\n[run]";
 
-// They may overlap each other and stick out of the box; other disks may not overlap them.
+// Fixed disks may overlap each other and reach out of the box; other disks may not overlap them.
 TEST(BadFixedDisk, OverlapIsReportedAndAmongThemselvesIsNot) {
   const std::string with_two = test::replaced(test::sound_scene, "[run]", two_pegs);
   EXPECT_EQ(test::complaint(with_two), "");
   EXPECT_THAT(test::complaint(test::replaced(with_two, "[2, 2]", "[2, 4]")), testing::HasSubstr("overlap by"));
 }
 
-// Disks grow around them (growth_test), but not they themselves.
+// Other disks may grow around fixed ones (growth_test), but fixed disks do not grow.
 TEST(BadFixedDisk, DoesNotGrow) {
   const std::string text = test::replaced(test::sound_scene, "[run]", two_pegs);
   const std::string growing = test::replaced(text, "positions = [[2, 2], [5, 5], [8, 2]]", "positions = \"growth\"");

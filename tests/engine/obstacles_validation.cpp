@@ -1,5 +1,5 @@
-// Long runs of the exact method among fixed disks and inner walls: no overlap after a million contacts, energy kept,
-// and the bits of the reference. The hopper against Beverloo's law.
+// Long runs of the exact method among fixed disks and inner walls: no overlap after a million contacts, energy
+// conserved, and the bits of the reference. The hopper is compared with Beverloo's law.
 #include <gtest/gtest.h>
 
 #include "core/disks/obstacle_cells.hpp"
@@ -62,7 +62,7 @@ TEST_P(AmongPegs, ReferenceAfterManyContacts) {
 
 INSTANTIATE_TEST_SUITE_P(Gravity, AmongPegs, ::testing::Values(0.0, 1.0));
 
-// Corners of either kind, an acute wedge, ends in the open, and a closed polygon.
+// Inner and outer corners, an acute wedge, free ends, and a closed polygon.
 Scene among_walls(double gravity) {
   return parse_scene(
       "[box]\nwidth = 20.0\nheight = 20.0\nleft = \"periodic\"\nright = \"periodic\"\n[physics]\ngravity = " +
@@ -87,8 +87,8 @@ TEST_P(AmongWalls, ReferenceAfterManyContacts) {
 
 INSTANTIATE_TEST_SUITE_P(Gravity, AmongWalls, ::testing::Values(0.0, 1.0));
 
-// A floor and two inner walls that vibrate; a bath takes what they give. A disk that has just left a sine is not seen
-// for 2^-40 of its period, in which it moves by a little more than 1e-12.
+// A vibrating floor and two vibrating inner walls; a thermostat removes the energy that they give. A disk that has just
+// left a sine is not tested for 2^-40 of the period, in which it moves by a little more than 1e-12.
 Scene among_moving_walls(const std::string& shape) {
   const std::string motion = ", shape = \"" + shape + "\" }\n";
   return parse_scene(
@@ -125,7 +125,7 @@ TEST_P(AmongMovingWalls, NoOverlapAfterAMillionContacts) {
 
 INSTANTIATE_TEST_SUITE_P(Shapes, AmongMovingWalls, ::testing::Values("parabola", "sine"));
 
-// Disks a unit of time through an opening of this width, while the hundred-and-first to the two-hundredth leave.
+// Disks per unit of time through an opening of this width, while the 101st to the 200th leave.
 double flow_through(double opening) {
   const std::string left = std::to_string(8.0 - 0.5 * opening);
   const std::string right = std::to_string(8.0 + 0.5 * opening);
@@ -144,7 +144,8 @@ double flow_through(double opening) {
   return 100.0 / (engine->state().time - first);
 }
 
-// D^(3/2) gives 2.83; with k = 1, 3.56. In proportion to the opening it would be 2.
+// D^(3/2) gives a ratio of 2.83; Beverloo's law with k = 1 gives 3.56. A flow in proportion to the opening would give
+// 2.
 TEST(Hopper, FlowsAsBeverlooSays) {
   const double ratio = flow_through(4.0) / flow_through(2.0);
   EXPECT_GT(ratio, 2.6);

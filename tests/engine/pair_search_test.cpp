@@ -1,4 +1,5 @@
-// The grid search against all pairs, over boxes and radii with which the original's grid (docs/original.md) fails.
+// The grid search compared with a test of all pairs, for boxes and radii with which the original's grid
+// (docs/original.md) fails.
 #include "core/reference/pair_search.hpp"
 
 #include <gtest/gtest.h>
@@ -19,13 +20,13 @@ using test::box_of;
 using test::Periodic;
 using test::periodic_along;
 
-// The same pairs in the same order, each once, smaller id first. Returns how many.
+// Both must find the same pairs in the same order, each once, with the smaller id first. Returns their number.
 std::size_t expect_same(const Disks& disks, const Domain& box) {
   const std::vector<Pair> grid = find_touching_pairs(disks, box);
   EXPECT_EQ(grid, test::touching_among_all_pairs(disks, box));
   for (std::size_t k = 0; k < grid.size(); ++k) {
     EXPECT_LT(disks.id[grid[k].i1], disks.id[grid[k].i2]);
-    EXPECT_TRUE(k == 0 || !(grid[k] == grid[k - 1]));  // F14
+    EXPECT_TRUE(k == 0 || !(grid[k] == grid[k - 1]));  // F14: no pair may occur twice
   }
   std::vector<Pair> looked_at;
   deepest_of_touching_pairs(disks, box, run_in_order, [&](std::uint32_t i, std::uint32_t j) {
@@ -38,7 +39,7 @@ std::size_t expect_same(const Disks& disks, const Domain& box) {
   return grid.size();
 }
 
-// Disks anywhere, overlapping as they like; centres up to `outside` beyond walls.
+// Disks anywhere, which may overlap; centres may lie up to `outside` beyond walls.
 Disks anywhere(test::Draws& draws, const Domain& box, std::size_t n, double radius_low, double radius_high,
                double outside = 0.0) {
   const double ox = box.periodic_x() ? 0.0 : outside;
@@ -65,7 +66,7 @@ TEST(PairSearch, AgreesWithAllPairsInBoxesOfAnyKind) {
   }
 }
 
-// F6, F17: one disk wider than many cells of the others, radii 1 : 1000.
+// F6, F17: disks wider than many cells, with radii 1 : 1000.
 TEST(PairSearch, RadiiOfAllSizes) {
   test::Draws draws(2);
   for (int k = 0; k < 8; ++k) {
@@ -74,7 +75,8 @@ TEST(PairSearch, RadiiOfAllSizes) {
   }
 }
 
-// In a sheared box, across whose top and bottom disks of any column may meet; images are nearest below half the height.
+// In a sheared box disks of any column may meet across the top and bottom; images are the nearest ones below half the
+// height.
 TEST(PairSearch, ShearedImages) {
   test::Draws draws(6);
   Domain box = box_of(60.0, 50.0, Periodic::both);
@@ -86,7 +88,7 @@ TEST(PairSearch, ShearedImages) {
   }
 }
 
-// F13: centres and edges exactly on cell lines, corners of the box included.
+// F13: centres and edges of disks exactly on cell borders, including corners of the box.
 TEST(PairSearch, DisksOnCellEdgesAndCorners) {
   for (int sides = 0; sides < 4; ++sides) {
     const Domain box = box_of(16.0, 16.0, periodic_along(sides % 2 == 1, sides / 2 == 1));
@@ -100,13 +102,13 @@ TEST(PairSearch, DisksOnCellEdgesAndCorners) {
     }
     const std::size_t n_x = box.periodic_x() ? 16 : 17;
     const std::size_t n_y = box.periodic_y() ? 16 : 17;
-    const std::size_t links_x = 16 * n_y;  // a row of n + 1 has n contacts, a closed one of n too
+    const std::size_t links_x = 16 * n_y;  // an open row of n + 1 disks has n contacts, and so has a closed row of n
     const std::size_t links_y = 16 * n_x;
     EXPECT_EQ(expect_same(test::disks_of(list), box), links_x + links_y);
   }
 }
 
-// F7: disks that hang over a wall, or were pushed wholly outside.
+// F7: disks that reach over a wall, or were pushed wholly outside.
 TEST(PairSearch, CentresOutsideTheWalls) {
   test::Draws draws(3);
   const Domain box = box_of(20.0, 20.0);
@@ -115,7 +117,7 @@ TEST(PairSearch, CentresOutsideTheWalls) {
   EXPECT_EQ(expect_same(corner, box), 1U);
 }
 
-// F10: across each periodic side and across the corner.
+// F10: pairs across each periodic side and across the corner.
 TEST(PairSearch, AcrossPeriodicSides) {
   const std::vector<Disk> row{{0.5, 5.0, 0, 0, 1.0, 1.0}, {9.0, 5.0, 0, 0, 1.0, 1.0}};
   EXPECT_EQ(expect_same(test::disks_of(row), box_of(10.0, 10.0, Periodic::x)), 1U);
@@ -127,7 +129,7 @@ TEST(PairSearch, AcrossPeriodicSides) {
   EXPECT_EQ(expect_same(test::disks_of(corner), box_of(10.0, 10.0, Periodic::x)), 0U);
 }
 
-// Boxes of one, two or three cells a side: a neighbour round the corner is then the same cell.
+// Boxes with one, two or three cells a side: then a neighbour across the corner may be in the same cell.
 TEST(PairSearch, FewCells) {
   test::Draws draws(4);
   for (double side : {2.01, 3.9, 4.1, 5.9, 6.1, 8.1}) {
@@ -146,7 +148,7 @@ TEST(PairSearch, NoDisksAndOneDisk) {
   EXPECT_EQ(expect_same(test::disks_of({{1.0, 1.0, 0, 0, 5.0, 1.0}}), box), 0U);
 }
 
-// The order of the answer is by id, whatever the order of storage.
+// The pairs found are in order of ids, whatever the order of storage.
 TEST(PairSearch, StorageOrderDoesNotMatter) {
   test::Draws draws(5);
   const Domain box = box_of(30.0, 30.0, Periodic::x);

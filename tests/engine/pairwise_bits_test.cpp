@@ -1,5 +1,5 @@
-// Time stepping where disks leave their cells, cross sides and come and go faster than in most scenes: after each step
-// the engine has the reference's bits, contacts, worst overlaps and warnings.
+// Time stepping where disks leave their cells, cross sides, or come and go faster than in most scenes: after each step
+// the engine has the bits, contacts, largest overlaps and warnings of the reference.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ struct Case {
   std::string box;
   std::string physics;
   std::string disks;
-  std::string rest;  // tables
+  std::string rest;  // tables of the scene
   double dt = 0.05;
   int steps = 100;
   double width = 20.0, height = 16.0;
@@ -62,7 +62,7 @@ void PrintTo(const Case& c, std::ostream* out) {
 
 using Met = std::vector<std::tuple<double, DiskId, DiskId>>;
 
-// Of disks that are still there: an engine may name those that have left through a sink, or not.
+// Contacts of disks that still exist: an engine may or may not list those of disks that have left through a sink.
 Met contacts_in_order(const Engine& engine) {
   const std::vector<DiskId>& ids = engine.state().disks.id;
   const auto is_there = [&](DiskId id) { return std::find(ids.begin(), ids.end(), id) != ids.end(); };
@@ -126,7 +126,8 @@ const Case cases[] = {
     {"kicks", periodic, "thermostat = { kind = \"langevin\", temperature = 9.0, rate = 0.05, dt = 0.25 }\n",
      gas(120, "0.4", 0.1), ""},
     {"a dilute shear of long steps", periodic + "shear_rate = -1.0\n", "", gas(60, "0.2"), "", 0.12},
-    // Found by chance: each loses a contact, a split or a push where a bound of the engine is a little too small.
+    // These cases were found at random. In each a contact, a split or a push would be lost if a bound in the engine
+    // were a little too small.
     {"a shear of large ones", periodic + "shear_rate = 0.5\n", "", gas(30, "1.289"), "", 0.1289, 100, 25.79, 12.89,
      10284},
     {"a fast shear of large ones", periodic + "shear_rate = 2.0\n", "", uniform(30, "1.5798"), "", 0.15798, 60, 24.25,
@@ -156,7 +157,7 @@ TEST_P(StepBits, OfRollbackAreTheReferencesAfterEachFrame) {
 
 INSTANTIATE_TEST_SUITE_P(Cases, StepBits, testing::ValuesIn(cases));
 
-// To the last bit at a periodic side in the end: at 0, not at the box's width.
+// Disks that end exactly at a periodic side must be at 0, not at the box's width.
 TEST(PairwiseBits, OfDisksThatComeToAPeriodicSide) {
   std::string places, velocities;
   for (int k = 0; k < 12; ++k) {
@@ -174,8 +175,8 @@ TEST(PairwiseBits, OfDisksThatComeToAPeriodicSide) {
   for (const double x : engine->state().disks.x) EXPECT_EQ(x, 0.0);
 }
 
-// A disk at rest in a corner falls onto a thermal floor, of which rounding makes no impact yet. Two disks that collide
-// elsewhere gave it another turn in the engine, and none in the reference.
+// A disk at rest in a corner falls onto a thermal floor; by rounding this is no impact yet. When two disks collided
+// elsewhere, the engine once gave the disk another turn, unlike the reference.
 TEST(PairwiseBits, OfACornerDoNotDependOnImpactsElsewhere) {
   const std::string text =
       "[box]\nwidth = 16.0\nheight = 6.0\nbottom = { temperature = 1.0 }\nwall_restitution = 0.5\n[physics]\n"

@@ -1,6 +1,6 @@
-// The engine against the reference: the same bits after every step, for random scenes over all combinations of
-// features, on 1, 2, 3, 5 and 8 threads, with the work cut into many small blocks so that even small scenes are shared
-// out.
+// The engine compared with the reference: the same bits after every step, for random scenes with all combinations of
+// features, on 1, 2, 3, 5 and 8 threads. The work is cut into many small blocks, so that it is divided even in small
+// scenes.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -31,7 +31,7 @@ struct Trace {
   Counters counters;
   SinkCounts taken;
   std::vector<std::string> warnings;
-  std::string error;  // of exact: inelastic collapse
+  std::string error;  // in exact: inelastic collapse
 };
 
 Trace trace_of(Engine& engine, double t_end) {
@@ -80,7 +80,7 @@ TEST_P(ParallelBits, EqualTheReferenceAfterEveryStep) {
     removed += expected.counters.removed;
     EXPECT_EQ(test::all_taken(expected.taken), expected.counters.removed);
   }
-  // The scenes must have had collisions, or the comparison shows nothing.
+  // Without collisions in the scenes the comparison would show nothing.
   EXPECT_GT(collisions, 35U * scenes.size());
   EXPECT_GT(emitted, scenes.size() * 7 / 20);
   if (std::string(std::get<1>(GetParam())) == "sink") {
@@ -89,7 +89,7 @@ TEST_P(ParallelBits, EqualTheReferenceAfterEveryStep) {
 }
 
 constexpr std::array methods{"pairwise", "rollback", "exact"};
-// TiltedBits are fast, of the same methods.
+// TiltedBits tests the same methods and is fast.
 INSTANTIATE_TEST_SUITE_P(LongAllScenes, ParallelBits,
                          ::testing::Combine(::testing::ValuesIn(methods),
                                             ::testing::Values("wall", "periodic", "periodic_x", "sink", "soft", "hot",
@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(LongAllScenes, ParallelBits,
 
 class TiltedBits : public ::testing::TestWithParam<std::tuple<const char*, const char*>> {};
 
-// Gravity as a vector, among obstacles and without, with the other features in turn.
+// Gravity as a vector, with and without obstacles, and with the other features in turn.
 TEST_P(TiltedBits, EqualTheReferenceAfterEveryStep) {
   Count collisions = 0;
   std::size_t scenes = 0;
@@ -131,7 +131,7 @@ INSTANTIATE_TEST_SUITE_P(LongAllScenes, TiltedBits,
 
 class ThermostatBits : public ::testing::TestWithParam<const char*> {};
 
-// Thermostats, whose kicks fall between the steps, with the other features in turn.
+// Thermostats, whose kicks come between steps, with the other features in turn.
 TEST_P(ThermostatBits, EqualTheReferenceAfterEveryStep) {
   for (const char* sides : {"wall", "periodic", "sink", "hot", "moving"}) {
     std::size_t scenes = 0;
@@ -155,7 +155,7 @@ TEST_P(ThermostatBits, EqualTheReferenceAfterEveryStep) {
 INSTANTIATE_TEST_SUITE_P(Methods, ThermostatBits, ::testing::Values("pairwise"));
 INSTANTIATE_TEST_SUITE_P(LongMethods, ThermostatBits, ::testing::Values("rollback", "exact"));
 
-// Blocks of any size give the same state: nothing depends on where one block ends and the next begins.
+// Blocks of any size give the same state: nothing depends on where one block ends and the next one begins.
 TEST(ParallelBlocks, OfAnySizeGiveTheSameBits) {
   Features f;
   f.gravity = true;
@@ -171,7 +171,8 @@ TEST(ParallelBlocks, OfAnySizeGiveTheSameBits) {
   }
 }
 
-// Uncut, 20,000 disks are four blocks of 5000, which threads share out alike in all phases (Executor).
+// Without a divisor 20,000 disks make four blocks of 5000, which are distributed to threads in the same way in all
+// phases (Executor).
 TEST(ParallelBlocks, AFewLargeOnesGiveTheBitsOfTheReference) {
   const Scene scene = parse_scene(R"(
     [box]
@@ -203,7 +204,7 @@ TEST(ParallelBlocks, AFewLargeOnesGiveTheBitsOfTheReference) {
   }
 }
 
-// A disk that others have pushed into a side, and that meets nothing else now and does not approach it.
+// A disk that others have pushed into a side, and that now touches nothing else and does not approach the side.
 TEST(ParallelBlocks, ADiskWithinASideIsPushedOut) {
   for (const Method method : {Method::pairwise, Method::rollback}) {
     const Scene scene = test::scene_of(method, 20.0, 20.0, 0.01, 1.0);

@@ -1,4 +1,4 @@
-// A million disks for 20 steps: the engine on two and three threads against the reference, after every step.
+// A million disks for 20 steps: the engine on two and three threads is compared with the reference after every step.
 #include <gtest/gtest.h>
 
 #include "core/disks/state_hash.hpp"

@@ -1,4 +1,4 @@
-// The engine against the reference on every scene of scenes/, after each of its first steps.
+// The engine compared with the reference in every scene of scenes/, after each of its first steps.
 #include <set>
 
 #include "tests/support/scenes_on_threads.hpp"
@@ -12,7 +12,7 @@ TEST_P(ParallelScenes, EqualTheReferenceAtFirst) {
   test::expect_engine_equals_reference(GetParam(), 40);
 }
 
-// Those that take more than half a second, or all others.
+// The scenes that take more than half a second, or all the others.
 std::vector<std::string> scenes(bool that_take_long) {
   const std::set<std::string> take_long{"analysis",    "couette",    "dense_mixture", "heat_conduction",
                                         "lorentz_gas", "mixing",     "paddle",        "piston",

@@ -1,4 +1,4 @@
-// The engine against the reference on every scene of scenes/, after each of many steps.
+// The engine compared with the reference in every scene of scenes/, after each of many steps.
 #include "tests/support/scenes_on_threads.hpp"
 
 namespace carom {

@@ -1,4 +1,5 @@
-// Patches: every contact runs once, those of one disk in the list's order, and no disk in two patches at a time.
+// Patches: every contact is run once, the contacts of each disk in the order of the list, and no disk is in two patches
+// at a time.
 #include "parallel/stepping/patches.hpp"
 
 #include <gtest/gtest.h>
@@ -19,8 +20,8 @@ struct Contacts {
   std::vector<std::uint16_t> in_contact;
 };
 
-// Disks at random places in a box of the given sides, contacts between random ones that are near, some of one disk
-// with a wall, and a few right across the box as periodic sides and large disks make them.
+// Disks at random places in a box of these sides, and contacts between random disks that are near each other, some of
+// one disk with a wall, and a few across the whole box, as periodic sides and large disks make them.
 Contacts random_contacts(std::size_t disks, std::size_t contacts, double width, double height) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -44,7 +45,7 @@ Contacts random_contacts(std::size_t disks, std::size_t contacts, double width, 
   return c;
 }
 
-// When each contact ran: its place in the sequence of its disks, checked against the list.
+// The contacts of each disk must run in the order of the list.
 void expect_order_kept(const Contacts& c, const Patches& patches, const Executor& executor, bool backwards) {
   std::vector<std::vector<std::uint32_t>> expected(c.disks.size());
   std::vector<std::vector<std::uint32_t>> seen(c.disks.size());
@@ -54,7 +55,7 @@ void expect_order_kept(const Contacts& c, const Patches& patches, const Executor
   };
   const auto n = static_cast<std::uint32_t>(c.pairs.size());
   for (std::uint32_t k = 0; k < n; ++k) note(expected, backwards ? n - 1 - k : k);
-  // Patches of a phase share no disk, or this would be a race that the thread sanitizer reports.
+  // Patches of a phase share no disk; otherwise this would be a race, which the thread sanitizer reports.
   run_patches(patches, backwards, executor, [&](std::size_t q) {
     const std::uint32_t begin = patches.start[q];
     const std::uint32_t end = patches.start[q + 1];
@@ -86,7 +87,7 @@ void expect_phases_disjoint(const Contacts& c, const Patches& patches) {
 void check(const Contacts& c, int threads, std::size_t divisor, bool cut) {
   const Executor executor(threads, divisor);
   Patches patches;
-  for (int again = 0; again < 2; ++again) {  // the second time it finds its scratch used
+  for (int again = 0; again < 2; ++again) {  // the second time its scratch memory has been used
     build_patches(patches, c.disks, c.in_contact, c.pairs.size(), executor, [&](std::size_t k) { return c.pairs[k]; });
     ASSERT_EQ(patches.order.size(), c.pairs.size());
     EXPECT_EQ(patches.count() > 1, cut);
@@ -117,7 +118,7 @@ TEST(Patches, DisksOnOneLineOrPoint) {
   Contacts c = random_contacts(300, 900, 1.0, 1.0);
   c.disks.x.assign(300, 0.5);
   c.disks.y.assign(300, 0.5);
-  check(c, 2, 64, true);  // all of them in one patch of the first layout
+  check(c, 2, 64, true);  // all contacts are in one patch of the first layout
 }
 
 TEST(IdOrder, IsThatOfAPlainSort) {
@@ -132,7 +133,7 @@ TEST(IdOrder, IsThatOfAPlainSort) {
         std::vector<std::uint64_t> expected;
         for (const IdPair& p : pairs.found) expected.push_back(p.key);
         std::sort(expected.begin(), expected.end());
-        sort_by_ids(pairs, ids / 2 + 1, Executor(threads));  // half of the ids are larger than was said
+        sort_by_ids(pairs, ids / 2 + 1, Executor(threads));  // half of the ids exceed the number stated
         std::vector<std::uint64_t> sorted;
         for (const IdPair& p : pairs.sorted) sorted.push_back(p.key);
         EXPECT_EQ(expected, sorted);

@@ -1,4 +1,4 @@
-// Small piles: a ball at rest, a column, a pyramid; what is at rest stays so, whatever the method of its support.
+// Small piles: a ball at rest, a column, a pyramid. Disks at rest stay at rest, however their support is computed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,7 +41,7 @@ Seen watch(const Scene& scene, const State& start) {
   return seen;
 }
 
-// What a settled pile must keep to: the bounds of pile_validation.cpp.
+// The bounds for a settled pile are those of pile_validation.cpp.
 void expect_bounds(const Seen& seen) {
   EXPECT_LE(seen.overlap, 0.02);
   EXPECT_LE(seen.below, 0.01);
@@ -49,7 +49,7 @@ void expect_bounds(const Seen& seen) {
   EXPECT_LT(seen.kinetic, 1e-6);
 }
 
-// A ball laid on the floor: it stays, and the floor bears m g.
+// A ball at rest on the floor stays there, and the floor bears m g.
 TEST(Pile, BallAtRest) {
   const Scene scene = pile_scene(0.5, 0.005, 10.0);
   const Seen seen = watch(scene, test::state_of(scene, {{10.0, 1.0, 0.0, 0.0, 1.0, 3.0}}));
@@ -69,7 +69,7 @@ std::vector<Disk> column(std::size_t n, double gap) {
   return list;
 }
 
-// Ten disks one on another, heavier and lighter: each contact bears the weight above it.
+// Ten disks one on another, of different masses: each contact bears the weight above it.
 TEST(Pile, ColumnOfTenBearsItsWeight) {
   const Scene scene = pile_scene(0.5, 0.005, 20.0);
   const std::vector<Disk> list = column(10, 0.0);
@@ -79,7 +79,7 @@ TEST(Pile, ColumnOfTenBearsItsWeight) {
   double weight = 0.0;
   for (std::size_t k = 10; k-- > 0;) {
     weight += 0.5 * list[k].mass;
-    // The contact of disk k with what is under it: the floor for 0, else disk k - 1.
+    // The contact of disk k with what is below it: the floor for disk 0, otherwise disk k - 1.
     const auto load = std::find_if(seen.end.loads.begin(), seen.end.loads.end(), [&](const ContactLoad& l) {
       return k == 0 ? l.id1 == 0 && l.id2 != 1 : l.id1 == k - 1 && l.id2 == k;
     });
@@ -90,8 +90,7 @@ TEST(Pile, ColumnOfTenBearsItsWeight) {
   }
 }
 
-// A pile at rest has no collisions, and yet the pressure of its loads: the sum of load times distance, over twice the
-// area.
+// A pile at rest has no collisions, but its loads have a pressure: the sum of load times distance, over twice the area.
 TEST(Pile, PressureOfAColumnIsThatOfItsLoads) {
   const std::vector<Disk> list = column(10, 0.0);
   const auto counters_at = [&](double time) {
@@ -109,7 +108,7 @@ TEST(Pile, PressureOfAColumnIsThatOfItsLoads) {
   EXPECT_NEAR(pressure / (loads / (2.0 * 20.0 * 40.0)), 1.0, 2e-3);
 }
 
-// The same ones dropped with gaps come to rest as that column.
+// The same disks, dropped with gaps, come to rest as that column.
 TEST(Pile, ColumnFallsAndStands) {
   for (const double e : {0.0, 0.5, 0.8}) {
     const Scene scene = pile_scene(e, 0.005, 60.0);
@@ -121,7 +120,7 @@ TEST(Pile, ColumnFallsAndStands) {
   }
 }
 
-// Four disks wall to wall, three in their hollows: at rest for good, the middle of the load on the floor.
+// Four disks from wall to wall and three in their hollows: they stay at rest, with the right load on the floor.
 TEST(Pile, TwoRowsBetweenWalls) {
   Scene scene = pile_scene(0.5, 0.005, 20.0);
   scene.box.width = 8.0;
@@ -137,7 +136,7 @@ TEST(Pile, TwoRowsBetweenWalls) {
   EXPECT_NEAR(floor / (7.0 * 0.5), 1.0, 1e-2);
 }
 
-// A box that settles and is empty from the start: steps without a disk, a contact or a velocity.
+// A settling scene that is empty from the start: steps without disks, contacts or velocities.
 TEST(Pile, OfNoDisksIsNone) {
   const Scene scene = pile_scene(0.5, 0.01, 1.0);
   const State none = test::state_of(scene, {});
@@ -150,8 +149,8 @@ TEST(Pile, OfNoDisksIsNone) {
   }
 }
 
-// A load whose force is too small for a double, as the step is longer than the impulse is large, is none: the engine
-// pushed that disk off the side as one that bears, and the reference as one that does not.
+// If the force of a load is too small for a double, since the step is long and the impulse tiny, it counts as no load.
+// The engine once pushed that disk off the side as one that bears load, and the reference as one that does not.
 TEST(Pile, LoadWhoseForceVanishesIsNone) {
   Scene scene = pile_scene(0.5, 4.0, 8.0);
   scene.physics.gravity = 1e-6;

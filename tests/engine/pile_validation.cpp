@@ -1,4 +1,4 @@
-// Production B and C to their end: the pile stands, nothing sinks, nothing overlaps, no energy is gained.
+// Production B and C run to their end: the pile stands, nothing sinks in, nothing overlaps, and no energy is gained.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,11 +15,11 @@ namespace {
 
 struct Worst {
   double overlap = 0.0;       // of two disks, over r1 + r2
-  double below = 0.0;         // beyond a wall, over the radius
-  double gained = -HUGE_VAL;  // total energy above the start's, over it
+  double below = 0.0;         // overlap with a wall, over the radius
+  double gained = -HUGE_VAL;  // excess of the total energy over that of the start, relative to it
 };
 
-// Measures after every step.
+// Measured after every step.
 void expect_to_settle(const char* file) {
   const Scene scene = load_scene(std::string(CAROM_SOURCE_DIR "/scenes/") + file);
   const State start = initial_state(scene);

@@ -1,6 +1,7 @@
-// Restitution by pairs of groups and by the speed of approach: the root that it needs, what one collision does in every
-// method, the same bits from both engines on any number of threads and after resume, and that no unit is hidden in it.
-// clang, unlike g++, calls every step from double to long double a promotion by mistake; here it is the point.
+// Restitution that depends on pairs of groups and on the speed of approach: the root that it needs, single collisions
+// in every method, the same bits from both engines on any number of threads and after resume, and no hidden unit.
+// clang, unlike g++, warns of each conversion from double to long double as a promotion by mistake; here it is
+// intended.
 #ifdef __clang__
 #pragma clang diagnostic ignored "-Wdouble-promotion"
 #endif
@@ -30,7 +31,7 @@
 namespace carom {
 namespace {
 
-// Against the root in long double, in units of the last place.
+// The error compared with the root in long double, in units of the last place.
 double error_of_root(double v) {
   const long double right = std::pow(static_cast<long double>(v), 0.2L);
   const double root = fifth_root(v);
@@ -76,7 +77,7 @@ TEST(RestitutionLaw, FindsThePairInEitherOrder) {
   EXPECT_EQ(law.of(0.9, 29, 0), (Restitution{0.5, 0.0}));
   EXPECT_EQ(law.of(0.9, 10, 29), (Restitution{0.25, 0.0}));
   EXPECT_EQ(law.of(0.9, 30, 29), rest);
-  EXPECT_EQ(law.of(0.9, 60, 59), (Restitution{0.125, 2.0})) << "from a source";
+  EXPECT_EQ(law.of(0.9, 60, 59), (Restitution{0.125, 2.0})) << "from a source's group";
   EXPECT_EQ(law.of(0.9, 1000, 60), rest);
   law.viscosity = 0.25;
   EXPECT_EQ(law.of(0.9, 30, 29), (Restitution{0.9, 0.25}));
@@ -103,7 +104,7 @@ std::string one_disk(const std::string& name, double x, double y, double vx, dou
       name, x, y, vx, vy);
 }
 
-// Two disks that meet head on in the middle, again and again, with elastic walls between: each time their speed is
+// Two disks that meet head-on in the middle, again and again, between elastic walls: each time their speed is
 // multiplied by e of twice the speed.
 TEST(Viscoelastic, SpeedsOfTwoDisksFollowTheFormula) {
   constexpr double a = 0.2, least = 0.45;
@@ -128,7 +129,7 @@ TEST(Viscoelastic, SpeedsOfTwoDisksFollowTheFormula) {
   }
 }
 
-// A disk of each group comes towards one that is at rest: their speed of separation.
+// A disk of one group moves towards a disk of the other at rest; returns their speed of separation.
 double separation(const std::string& method, const std::string& physics, const std::string& moving,
                   const std::string& standing) {
   const State state = run_to_end(scene_with(
@@ -175,7 +176,8 @@ TEST(Pairs, HoldForFixedDisksAndForThoseOfSources) {
   }
 }
 
-// What asks whether energy is lost: piles, the TC model, the choice of a method, collapse.
+// All that depends on whether energy is lost must know of the law: piles, the TC model, the choice of a method,
+// collapse.
 TEST(RestitutionLaw, IsKnownToWhatAsksForDissipation) {
   const std::string two = one_disk("a", 5.0, 10.0, 2.0, 0.0) + one_disk("b", 8.0, 10.0, 0.0, 0.0);
   const std::string tc = "gravity = 1.0\ncollapse = { model = \"tc\", contact_time = 1e-3 }\n";
@@ -212,7 +214,7 @@ TEST(RestitutionLaw, SaysWhetherAGasMayCollapse) {
   EXPECT_TRUE(may("gravity = 1.0\nrestitution = { viscoelastic = 0.5 }"));
 }
 
-// Three disks on a line collapse below e = 7 - 4 sqrt(3).
+// Three disks in a row collapse for e below 7 - 4 sqrt(3).
 TEST(RestitutionLaw, CollapseIsReported) {
   const std::string three =
       one_disk("a", 4.0, 10.0, 1.0, 0.0) + one_disk("b", 10.0, 10.0, 0.0, 0.0) + one_disk("c", 15.0, 10.0, -1.0, 0.0);
@@ -226,7 +228,7 @@ TEST(RestitutionLaw, CollapseIsReported) {
   EXPECT_EQ(run_to_end(scene_with("exact", pairs(0.09), three, 20.0)).time, 20.0);
 }
 
-// Pairs that say what the scene says anyway change no bit.
+// Pairs with the common restitution of the scene change no bit.
 TEST(Pairs, OfTheCommonRestitutionChangeNothing) {
   for (const char* method : methods) {
     for (const bool gravity : {false, true}) {
@@ -250,13 +252,13 @@ TEST(Pairs, OfTheCommonRestitutionChangeNothing) {
   }
 }
 
-// Lengths scaled by 2^20 with a scaled by 2^-4, and so on: the same bits, scaled.
+// Lengths scaled by 2^20, with a scaled by 2^-4, and so on: the same bits, scaled.
 TEST(Viscoelastic, HasNoHiddenUnit) {
   for (const char* method : methods) {
     test::Features f;
     f.method = method;
     f.radii = "mixed";
-    f.gravity = f.method != "exact";  // which would collapse
+    f.gravity = f.method != "exact";  // exact would collapse with it
     f.obstacles = true;
     f.law = "pairs";
     Scene scene = test::feature_scene(f, 20);
@@ -271,13 +273,13 @@ constexpr int steps = 12;
 
 class RestitutionLaws : public ::testing::TestWithParam<std::tuple<const char*, const char*>> {
  protected:
-  // Every fifth combination of features, with obstacles, under both laws in turn.
+  // Every fifth combination of features, with obstacles, with both laws in turn.
   static std::vector<test::Features> features() {
     const auto [method, sides] = GetParam();
     std::vector<test::Features> some;
     const std::vector<test::Features> all = test::all_features(method, sides);
     for (std::size_t k = std::string(sides).size() % 5; k < all.size(); k += 5) {
-      if (std::string(sides) == "moving" && all[k].radii == "wide") continue;  // no room for large disks
+      if (std::string(sides) == "moving" && all[k].radii == "wide") continue;  // there is no room for large disks
       some.push_back(all[k]);
       some.back().law = k % 2 == 0 || all[k].diffusion == "replace" ? "pairs" : "viscoelastic";
       some.back().obstacles = k % 3 != 0;

@@ -1,5 +1,5 @@
-// F1 and F2 of docs/original.md, which belong to the method `rollback`, are shown; and the guard that stops a stalled
-// run.
+// The faults F1 and F2 of docs/original.md, which belong to the method `rollback`, are shown; and the guard that stops
+// a stalled run.
 #include "parallel/stepping/rollback.hpp"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ namespace {
 
 // n equal elastic disks at packing fraction 0.2 in a periodic box.
 Scene gas_scene(Method method, int per_side, double dt, double t_end) {
-  const double spacing = std::sqrt(std::numbers::pi / 4.0 / 0.2);  // diameter 1
+  const double spacing = std::sqrt(std::numbers::pi / 4.0 / 0.2);  // the diameter is 1
   Scene scene = test::scene_of(method, per_side * spacing, per_side * spacing, dt, t_end);
   test::set_sides(scene.box, SideKind::periodic, SideKind::periodic);
   return scene;
@@ -42,7 +42,8 @@ State gas(const Scene& scene, int per_side) {
   return test::state_of(scene, list);
 }
 
-// F1: a frame advances by dt less the largest back-up time of all. The mean advance, in units of dt, falls with N.
+// F1: a frame advances time by dt minus the largest back-up time of all pairs. The mean advance, in units of dt, falls
+// with N.
 TEST(Rollback, F01_FramesAdvanceLessTheMoreDisksThereAre) {
   double advance[3] = {};
   const int per_side[3] = {4, 12, 36};
@@ -56,8 +57,8 @@ TEST(Rollback, F01_FramesAdvanceLessTheMoreDisksThereAre) {
   EXPECT_LT(advance[2], 0.9 * advance[1]);
 }
 
-// F2: pairs that have not yet met bounce at the first contact of all: the collision rate is too high, the more so the
-// longer the step. pairwise, with the same step, is not off like that.
+// F2: pairs that have not yet met bounce at the first contact of all, so the collision rate is too high, and more so
+// for longer steps. With the same step pairwise is much closer.
 TEST(Rollback, F02_CollisionRateIsTooHigh) {
   const int per_side = 16;
   const auto collisions = [&](Method method, double dt) {
@@ -73,7 +74,7 @@ TEST(Rollback, F02_CollisionRateIsTooHigh) {
   EXPECT_GT(rollback / right - 1.0, 2.0 * std::abs(pairwise / right - 1.0));
 }
 
-// Two disks that nothing stops, with a kick of a thermostat at each quarter of the run.
+// Two disks that meet nothing, with a kick of a thermostat at each quarter of the run.
 Scene kicked_scene(Method method, double t_end, int steps) {
   Scene scene = test::scene_of(method, 50.0, 50.0, t_end / steps, t_end);
   test::set_sides(scene.box, SideKind::periodic, SideKind::periodic);
@@ -83,8 +84,8 @@ Scene kicked_scene(Method method, double t_end, int steps) {
 
 const std::vector<Disk> two_free_disks = {{10.0, 10.0, 1.0, 0.0, 0.5, 1.0}, {40.0, 40.0, 0.0, 1.0, 0.5, 1.0}};
 
-// The sum of the frames' lengths may lie below t_end by its rounding. No frame of that follows, which would give the
-// kick that is due at t_end.
+// By rounding the sum of the lengths of frames may lie below t_end. This must not add a frame, which would give a kick
+// that is due at t_end.
 TEST(Rollback, RoundingOfTimeAddsNoFrameAndNoKick) {
   for (const double t_end : {0.9, 1.1, 1.161473, 1.4456504310434455, 7.7}) {
     for (const int steps : {100, 512, 2048, 8192}) {
@@ -100,7 +101,7 @@ TEST(Rollback, RoundingOfTimeAddsNoFrameAndNoKick) {
   }
 }
 
-// Nor between two Brownian intervals.
+// The same between two Brownian intervals.
 TEST(Rollback, RoundingOfTimeAddsNoFrameToABrownianInterval) {
   for (const double dt : {0.01, 0.003, 0.0007}) {
     Scene scene = test::scene_of(Method::rollback, 50.0, 50.0, dt, 1000.0 * dt);
@@ -112,12 +113,12 @@ TEST(Rollback, RoundingOfTimeAddsNoFrameToABrownianInterval) {
   }
 }
 
-// What is left is a frame of its own where it is more than rounding.
+// The rest of an interval becomes a frame of its own if it is more than rounding.
 TEST(Rollback, AFrameTakesInNoMoreThanRounding) {
   EXPECT_EQ(frame_length(0.1, 0.1 + 1e-14, 1.0), 0.1 + 1e-14);
   EXPECT_EQ(frame_length(0.1, 0.1 - 1e-14, 1.0), 0.1 - 1e-14);
   EXPECT_EQ(frame_length(0.1, 0.1 + 1e-9, 1.0), 0.1);
-  EXPECT_EQ(frame_length(1e-13, 1.5e-13, 1.0), 1e-13);  // steps that are themselves as short as rounding
+  EXPECT_EQ(frame_length(1e-13, 1.5e-13, 1.0), 1e-13);  // steps that are as short as rounding themselves
 }
 
 TEST(StallGuard, StopsARunWhoseTimeStandsStill) {
@@ -131,7 +132,7 @@ TEST(StallGuard, StopsARunWhoseTimeStandsStill) {
   }
   try {
     check_stall(state, scene);
-    FAIL() << "did not stop";
+    FAIL() << "the guard did not stop the run";
   } catch (const PhysicsError& error) {
     const std::string text = error.what();
     EXPECT_NE(text.find("rollback: time stands still at t = 2.4"), std::string::npos) << text;
@@ -142,7 +143,7 @@ TEST(StallGuard, StopsARunWhoseTimeStandsStill) {
   }
 }
 
-// A rough wall makes speed of spin: the next frame is split by the speed that the disk has then, in both engines.
+// A rough wall converts spin to speed: the next frame is split according to the disk's new speed, in both engines.
 TEST(Rollback, ADiskThatARoughWallSetsGoingIsSeenToBeFast) {
   Scene scene = parse_scene(R"([box]
 width = 20
@@ -174,7 +175,7 @@ t_end = 1
   EXPECT_LT(reference->state().time, 0.3) << "no frame was split";
 }
 
-// So do a hot side and one that moves; and a ceiling sends a disk down faster than it came.
+// The same for a hot side and a moving side; and a ceiling sends a disk down faster than it came.
 TEST(Rollback, ADiskThatASideMakesFastIsSeenToBeFast) {
   const auto runs_alike = [](const std::string& box, const std::string& physics, const std::string& disk) {
     const Scene scene = parse_scene("[box]\nwidth = 20\nheight = 20\n" + box + "[physics]\n" + physics +
@@ -202,7 +203,8 @@ TEST(Rollback, ADiskThatASideMakesFastIsSeenToBeFast) {
   }
 }
 
-// A wall sends one disk into another, which the next frame alone finds, and parts. No warning told of it.
+// A wall sends one disk into another; only the next frame finds the overlap and separates them. Once no warning
+// reported it.
 TEST(Rollback, SeesWhereAWallSendsADiskIntoAnother) {
   const Scene scene = test::scene_of(Method::rollback, 10.0, 10.0, 1.0, 4.0);
   const State start = test::state_of(scene, {{1.05, 5.0, -0.45, 0.0, 1.0, 1.0}, {3.06, 5.0, 0.0, 0.0, 1.0, 1.0}});

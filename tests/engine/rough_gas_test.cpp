@@ -1,6 +1,7 @@
-// Gases of rough disks against mean-field theory: how energy goes from one motion to the other, and the constant ratio
-// of their temperatures in a gas that cools freely (Huthmann and Zippelius, Phys. Rev. E 56, R6275, 1997; Luding,
-// Huthmann, McNamara and Zippelius, Phys. Rev. E 58, 3416, 1998). docs/methods.md derives the coefficients.
+// Gases of rough disks compared with mean-field theory: the exchange of energy between translation and rotation, and
+// the constant ratio of their temperatures in a freely cooling gas (Huthmann and Zippelius, Phys. Rev. E 56, R6275,
+// 1997; Luding, Huthmann, McNamara and Zippelius, Phys. Rev. E 58, 3416, 1998). docs/methods.md derives the
+// coefficients.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -21,7 +22,7 @@ struct Gas {
   double e = 1.0, b = 1.0, q = 0.5;
   double spin_temperature = 0.0;
   std::string method = "exact";
-  int disks = 150;  // so few that neither clusters nor vortices grow, which are slower than this box is small
+  int disks = 150;  // few enough that neither clusters nor vortices grow in so small a box
 };
 
 Scene scene_of(const Gas& g, int seed) {
@@ -39,7 +40,7 @@ double collisions_a_disk(const State& s) {
   return 2.0 * static_cast<double>(s.counters.collisions) / static_cast<double>(s.disks.size());
 }
 
-// Their mean velocity is none: disks have two degrees of freedom of motion less than two each.
+// The mean velocity is 0, so N disks have 2 N - 2 translational degrees of freedom.
 struct Temperatures {
   double motion = 0.0, rotation = 0.0;
 };
@@ -49,7 +50,7 @@ Temperatures temperatures(const State& s) {
   return {energy.kinetic / (n - 1.0), 2.0 * energy.rotational / n};
 }
 
-// R of B R^2 + (2 C - A) R - 2 B = 0, with eta = q (1 + b) / (2 (1 + q)).
+// The solution R of B R^2 + (2 C - A) R - 2 B = 0, with eta = q (1 + b) / (2 (1 + q)).
 double theory_of_ratio(const Gas& g) {
   const double eta = g.q * (1.0 + g.b) / (2.0 * (1.0 + g.q));
   const double a = 0.25 * (1.0 - g.e * g.e) + 0.5 * eta * (1.0 - eta);
@@ -59,7 +60,7 @@ double theory_of_ratio(const Gas& g) {
   return (half + std::sqrt(half * half + 2.0 * b * b)) / b;
 }
 
-// Mean T_rot over mean T_tr, each in units of both, between so many collisions a disk.
+// The mean of T_rot over that of T_tr, each relative to their sum, between these numbers of collisions per disk.
 double ratio_of(const Gas& g, double from, double to, int runs) {
   double rotation = 0.0, motion = 0.0;
   for (int seed = 1; seed <= runs; ++seed) {
@@ -80,9 +81,9 @@ TEST(RoughGasTheory, KnowsEquipartition) {
   for (const double q : {0.1, 0.4, 0.5, 1.0}) EXPECT_NEAR(theory_of_ratio({1.0, 1.0, q}), 1.0, 1e-14);
 }
 
-// Theory takes both distributions for normal ones. They are not quite: boltzmann is the ratio that Boltzmann's equation
-// itself has for the same rule, from a direct simulation without space (pairs drawn by their relative velocity, 20,000
-// disks), up to a percent.
+// The theory assumes both distributions to be normal, which they are only approximately. boltzmann is the ratio given
+// by Boltzmann's equation with the same rule, up to a percent, from a direct simulation without space (20,000 disks,
+// pairs drawn by their relative velocity).
 TEST(LongRoughGas, CoolsAtAConstantRatioOfTemperatures) {
   struct Case {
     Gas gas;
@@ -100,10 +101,10 @@ TEST(LongRoughGas, CoolsAtAConstantRatioOfTemperatures) {
   }
 }
 
-// Where much is lost distributions are further from normal ones: theory has 0.68, Boltzmann's equation 0.634 in this
-// time and 0.627 in the end. Without spin at first it takes 30 collisions a disk to come there (0.59 in the mean of 10
-// to 20), and by then larger gases have vortices, whose energy counts as that of motion. So these begin near the ratio,
-// and are measured early; 1 % statistical error.
+// With strong dissipation distributions are further from normal: the theory gives 0.68, Boltzmann's equation 0.634 at
+// these times and 0.627 in the end. A gas without spin at first needs 30 collisions per disk to come there (0.59 is its
+// mean from 10 to 20), and by then larger gases have vortices, whose energy counts as translational. So these gases
+// begin near the ratio, and are measured early; the statistical error is 1 %.
 TEST(RoughGas, WithMuchLossHasTheRatioOfBoltzmannsEquation) {
   Gas g{0.8, 0.0, 0.5, 0.63};
   g.disks = 400;
@@ -119,8 +120,8 @@ TEST(LongRoughGas, CoolsAtTheSameRatioUnderPairwise) {
   EXPECT_NEAR(measured / theory_of_ratio(g), 1.0, 0.06);
 }
 
-// Perfectly rough and elastic, without spin at first: the difference of the two temperatures falls as
-// exp(-3 q / (1 + q)^2 per collision of a disk), to equipartition; the energy of both stays to rounding.
+// Perfectly rough and elastic disks, without spin at first: the difference of the two temperatures decays to
+// equipartition as exp(-3 q / (1 + q)^2 n) with n collisions per disk; the total energy is conserved to rounding.
 TEST(LongRoughGas, ComesToEquipartition) {
   for (const double q : {0.2, 0.5, 1.0}) {
     Gas g{1.0, 1.0, q};
@@ -136,7 +137,7 @@ TEST(LongRoughGas, ComesToEquipartition) {
       for (std::size_t k = 0; k < times.size(); ++k) {
         while (collisions_a_disk(engine->state()) < times[k]) engine->step();
         const Temperatures t = temperatures(engine->state());
-        // A window overshoots.
+        // Corrects for the end of the window, which is later than the time wanted.
         const double late = std::exp(rate * (times[k] - collisions_a_disk(engine->state())));
         difference[k] += (t.motion - t.rotation) * (k + 1 < times.size() ? 1.0 / late : 1.0) / runs;
       }

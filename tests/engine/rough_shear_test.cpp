@@ -1,4 +1,4 @@
-// Rough disks in a shear flow: a contact across the border by hand, the energy account, bits, and resuming.
+// Rough disks in a shear flow: a contact across the border by hand, the balance of energy, bits, and resuming.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -43,8 +43,9 @@ double energy(const State& s) {
   return e.kinetic + e.rotational;
 }
 
-// The image above of the second disk, at (3, -1), is a diameter above the first, at (2, 1): the surfaces slip at -1,
-// which turns round, as b = 1. With q = 1/2 a third of the change of -2 is a change of velocity, by 1/3 each.
+// The upper image of the second disk, with velocity (3, -1), is a diameter above the first, with (2, 1). The surfaces
+// slip at -1, which is reversed, as b = 1. With q = 1/2 a third of the change of -2 changes the velocities, by 1/3
+// each.
 TEST(RoughShear, DisksRubAcrossTheBorder) {
   for (const Method method : {Method::exact, Method::pairwise, Method::rollback}) {
     Scene scene = scene_of(method, 10.0, 10.0, 0.001, 1.0);
@@ -63,8 +64,9 @@ TEST(RoughShear, DisksRubAcrossTheBorder) {
     EXPECT_NEAR(end.disks.vy[1], 1.0, 1e-11);
     EXPECT_NEAR(end.disks.spin[0], -4.0 / 3.0, 1e-11);
     EXPECT_NEAR(end.disks.spin[1], -4.0 / 3.0, 1e-11);
-    EXPECT_NEAR(end.counters.shear_virial, -1.0 / 3.0, 1e-11) << "momentum along x, one diameter along y";
-    EXPECT_NEAR(end.counters.shear_work, 4.0 / 3.0, 1e-11) << "what the image gives, at velocity 4";
+    EXPECT_NEAR(end.counters.shear_virial, -1.0 / 3.0, 1e-11)
+        << "momentum along x, transferred by one diameter along y";
+    EXPECT_NEAR(end.counters.shear_work, 4.0 / 3.0, 1e-11) << "the work of the image, at velocity 4";
     EXPECT_NEAR(energy(end), energy(start) + 4.0 / 3.0, 1e-11);
   }
 }
@@ -75,7 +77,7 @@ TEST(RoughShear, WorkIsTheEnergyGainedBySurfacesThatLoseNone) {
     const State start = initial_state(scene);
     const State end = run(scene, start);
     EXPECT_GT(end.counters.collisions, 300U);
-    EXPECT_GT(energy(end), energy(start) * 1.02) << "it heats";
+    EXPECT_GT(energy(end), energy(start) * 1.02) << "the flow must heat the disks";
     EXPECT_NEAR((energy(start) + end.counters.shear_work) / energy(end), 1.0, 1e-12) << method;
     EXPECT_TRUE(energy_warnings(scene, run_start(start, scene), end).empty());
   }

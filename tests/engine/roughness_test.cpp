@@ -1,5 +1,5 @@
-// Rough disks in all three methods: what one contact does in a run, what is conserved, the same bits from both engines
-// on any number of threads and after resume, that smooth surfaces change nothing and that no unit is hidden in it.
+// Rough disks in all three methods: single contacts in a run, conservation, the same bits from both engines on any
+// number of threads and after resume, smooth surfaces that change nothing, and no hidden unit.
 #include "core/physics/roughness.hpp"
 
 #include <fmt/format.h>
@@ -45,7 +45,8 @@ std::string one_disk(double x, double y, double vx, double vy, double spin) {
       y, vx, vy, spin);
 }
 
-// Two disks head on, the first spins: slip -w r = -3, of which a third is turned into an impulse of 2 reduced masses.
+// Two disks meet head-on, and the first spins: the slip is -w r = -3, and a third of its change becomes an impulse of 2
+// reduced masses.
 TEST(RoughDisks, MeetHeadOnWithSpin) {
   for (const char* method : methods) {
     const State s =
@@ -61,7 +62,8 @@ TEST(RoughDisks, MeetHeadOnWithSpin) {
   }
 }
 
-// A disk flies onto the right wall, upwards as fast as across; mu = 0.25 and e = 1: 0.5 of its speed goes at most.
+// A disk flies to the right wall, with equal velocities along and across it. Sticking, b = 0.5 takes half of the speed
+// along the wall; with mu = 0.125 and e = 1 sliding takes 0.25.
 TEST(RoughWalls, TakeUpSpeedBySpin) {
   const std::string disk = one_disk(18.0, 5.0, 1.0, 1.0, 0.0);
   for (const char* method : methods) {
@@ -81,7 +83,7 @@ TEST(RoughWalls, TakeUpSpeedBySpin) {
   }
 }
 
-// Inner walls are as rough as sides, fixed disks as other disks.
+// Inner walls are as rough as sides, and fixed disks as rough as other disks.
 TEST(RoughObstacles, AreAsRoughAsWallsOrDisks) {
   const std::string wall = "[[walls]]\nfrom = [10.0, 2.0]\nto = [10.0, 18.0]\n";
   const std::string peg = "[[disks]]\nfixed = true\ncount = 1\npositions = [[10.0, 10.0]]\nradius = 0.5\n";
@@ -98,7 +100,8 @@ TEST(RoughObstacles, AreAsRoughAsWallsOrDisks) {
     EXPECT_EQ(end("", one_disk(8.5, 5.0, 1.0, 1.0, 0.0), wall).spin[0], 0.0) << method;
     const Disks off_peg = end("", one_disk(8.0, 10.0, 1.0, 0.0, 6.0), peg);
     EXPECT_NEAR(off_peg.vx[0], -1.0, 1e-12) << method;
-    EXPECT_NEAR(off_peg.vy[0], -1.5, 1e-12) << method;  // surface moves up at 3: pushed down by 1.5 / 3 of it
+    EXPECT_NEAR(off_peg.vy[0], -1.5, 1e-12)
+        << method;  // its surface moves up at 3, so it is pushed down by 1.5 / 3 of that
     EXPECT_NEAR(off_peg.spin[0], 0.0, 1e-12) << method;
   }
 }
@@ -113,7 +116,8 @@ test::Features gas(const std::string& method, const std::string& rough) {
   return f;
 }
 
-// Perfectly rough and elastic: the energy of both motions stays, and momentum does. Inelastic, energy falls.
+// Perfectly rough and elastic disks conserve momentum and the sum of both energies. With inelastic ones the energy
+// falls.
 TEST(RoughGas, KeepsEnergyAndMomentum) {
   for (const char* method : {"exact", "pairwise"}) {
     Scene scene = test::feature_scene(gas(method, "sticking"), 60);
@@ -134,7 +138,7 @@ TEST(RoughGas, KeepsEnergyAndMomentum) {
   }
 }
 
-// What thermal sides give is heat: to the spin, too, where walls are rough. It comes to their temperature.
+// Thermal sides give heat to the spin, too, if walls are rough, and the spin reaches their temperature.
 TEST(RoughGas, IsHeatedByThermalSides) {
   for (const char* method : methods) {
     test::Features f = gas(method, "sticking");
@@ -154,7 +158,8 @@ TEST(RoughGas, IsHeatedByThermalSides) {
   }
 }
 
-// b = -1, or mu = 0: places, velocities and counters of smooth disks, bit for bit; spins stay.
+// With b = -1 or mu = 0 positions, velocities and counters are those of smooth disks, bit for bit, and spins do not
+// change.
 TEST(SmoothSurfaces, ChangeNoBit) {
   for (const char* method : methods) {
     for (const bool gravity : {false, true}) {
@@ -181,7 +186,7 @@ TEST(SmoothSurfaces, ChangeNoBit) {
   }
 }
 
-// Under the TC model a contact that it makes elastic is smooth, too: a disk between two walls closer and closer.
+// A contact that the TC model makes elastic is smooth, too: a disk between two walls that come closer and closer.
 TEST(RoughDisks, AreSmoothWhereTheTcModelMakesThemElastic) {
   Scene scene = scene_with("exact", "wall_roughness = { tangential_restitution = 0.5 }\nwall_restitution = 0.5\n",
                            "roughness = { tangential_restitution = 0.5 }\n"
@@ -230,7 +235,7 @@ TEST(RoughDisks, HaveNoHiddenUnit) {
   }
 }
 
-// A frame within a window of exact: spins as they were then, in both engines.
+// A frame within a window of exact has the spins of that time, in both engines.
 TEST(RoughDisks, AreSeenWithTheirSpinWithinAWindow) {
   test::Features f = gas("exact", "sliding");
   f.sides = "sink";
@@ -258,15 +263,15 @@ constexpr int steps = 12;
 
 class Roughnesses : public ::testing::TestWithParam<std::tuple<const char*, const char*>> {
  protected:
-  // Every fifth combination of features without Brownian motion, sticking and sliding in turn, under a law here and
-  // there.
+  // Every fifth combination of features without Brownian motion, sticking and sliding in turn, in some cases with a law
+  // of restitution.
   static std::vector<test::Features> features() {
     const auto [method, sides] = GetParam();
     std::vector<test::Features> some;
     std::vector<test::Features> all = test::all_features(method, sides);
     std::erase_if(all, [](const test::Features& f) { return !f.diffusion.empty(); });
     for (std::size_t k = std::string(sides).size() % 3; k < all.size(); k += 5) {
-      if (std::string(sides) == "moving" && all[k].radii == "wide") continue;  // no room for large disks
+      if (std::string(sides) == "moving" && all[k].radii == "wide") continue;  // there is no room for large disks
       some.push_back(all[k]);
       some.back().rough = some.size() % 2 == 0 ? "sticking" : "sliding";
       some.back().law = some.size() % 3 == 0 ? "viscoelastic" : some.size() % 5 == 0 ? "pairs" : "";

@@ -1,4 +1,5 @@
-// No hidden unit, no absolute tolerance: lengths, masses or times scaled by 2^20 or 2^-20 give the same bits, scaled.
+// No hidden unit and no absolute tolerance: lengths, masses or times scaled by 2^20 or 2^-20 give the same bits,
+// scaled.
 #include <gtest/gtest.h>
 
 #include "core/scene/disk_group.hpp"
@@ -15,7 +16,7 @@ namespace {
 
 using test::expect_same_in_all_units;
 
-// A group of mixed sizes: every law has its turn.
+// A group with a size distribution; all laws occur in turn.
 DiskGroup random_group(test::Draws& draws, Count count) {
   DiskGroup group;
   group.count = count;
@@ -45,7 +46,7 @@ DiskGroup random_group(test::Draws& draws, Count count) {
   return group;
 }
 
-// In half of the scenes a restitution that depends on the speed, or one of their own for two groups, or both.
+// Half of the scenes have a restitution that depends on the speed, or a separate one for two groups, or both.
 void add_restitution_law(test::Draws& draws, Scene& s) {
   RestitutionLaw& law = s.physics.law;
   if (draws.bits() % 4 == 0) {
@@ -57,7 +58,7 @@ void add_restitution_law(test::Draws& draws, Scene& s) {
   law.pairs = {{0, 0, {draws.in(0.2, 1.0), 0.0}}, {0, 1, {0.4, draws.in(0.1, 0.4)}}};
 }
 
-// A third of the scenes without Brownian motion have rough disks, some of them rough walls.
+// A third of the scenes without Brownian motion have rough disks, some of them with rough walls.
 void add_roughness(std::uint64_t seed, Scene& s) {
   if (seed % 3 != 0 || s.physics.diffusion > 0.0) return;
   s.physics.surfaces = {0.5, {0.3, seed % 2 == 0 ? 0.4 : HUGE_VAL}, {}};
@@ -67,7 +68,7 @@ void add_roughness(std::uint64_t seed, Scene& s) {
   for (Source& source : s.sources) source.spins.temperature = 1.5;
 }
 
-// Gravity, restitution of disks and walls, Brownian motion both ways, each kind of side, sources of both kinds.
+// Gravity, restitution of disks and walls, both kinds of Brownian motion, each kind of side, and both kinds of sources.
 Scene random_scene(std::uint64_t seed, Method method) {
   test::Draws draws(seed);
   Scene s = test::scene_of(method, draws.in(14.0, 20.0), draws.in(14.0, 20.0), 0.02, 3.0);
@@ -123,7 +124,7 @@ TEST(Scaling, RandomScenesWithEveryFeature) {
   EXPECT_GT(removed, 50U);
 }
 
-// A pile that has come to rest: loads, slop and the sweeps of the solver have no unit either.
+// A pile at rest: its loads, slop and the sweeps of the solver must not depend on units either.
 TEST(Scaling, PileAtRest) {
   Scene s = test::scene_of(Method::pairwise, 8.0, 30.0, 0.01, 25.0);
   s.title = "pile";

@@ -12,14 +12,14 @@ namespace {
 
 using test::expect_same_in_all_units;
 
-// As in the files, their first hundred steps.
+// The first hundred steps of each scene, as in its file.
 TEST(Scaling, ScenesOfTheFolder) {
   int run = 0;
   for (const auto& entry : std::filesystem::directory_iterator(CAROM_SOURCE_DIR "/scenes")) {
     if (entry.path().extension() != ".toml") continue;
     Scene scene = load_scene(entry.path().string());
     if (scene.groups.empty() || scene.groups[0].count > 1000 || scene.run.dt == 0.0) continue;
-    // Grown anew for each method and unit, which is slow where the address sanitizer watches.
+    // Disks are grown anew for each method and unit, which is slow with the address sanitizer.
     if (grows(scene)) scene = load_scene(entry.path().string(), {{"disks.0.count", "100"}});
     for (Method method : test::stepping_methods) {
       scene.run.method = method;
@@ -28,7 +28,7 @@ TEST(Scaling, ScenesOfTheFolder) {
       ++run;
     }
   }
-  EXPECT_GE(run, 10) << "five scenes of the original, by two methods";
+  EXPECT_GE(run, 10) << "at least five scenes, by two methods";
 }
 
 }  // namespace

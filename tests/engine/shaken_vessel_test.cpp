@@ -1,4 +1,4 @@
-// A vessel that is shaken with what is built into it: floor, lid, shelf and partition swing in step.
+// A shaken vessel with walls inside: floor, lid, shelf and partition vibrate in step.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@
 namespace carom {
 namespace {
 
-// Floor and lid 19 apart; a partition from one to the other at x = 8, and a shelf from it to the right side.
+// Floor and lid are 19 apart; a partition at x = 8 goes from one to the other, and a shelf from it to the right side.
 std::string vessel(const char* shape) {
   const std::string motion = fmt::format("vibrate = [0, 0.5], period = 2, shape = \"{}\"", shape);
   return fmt::format(
@@ -36,9 +36,9 @@ Scene scene_in(const std::string& vessel, const std::string& rest, const char* m
 constexpr const char* gas =
     "[[disks]]\ncount = 60\npositions = \"random\"\nvelocities = { maxwell = 1.0 }\nradius = 0.3\nmass = 1.0\n";
 
-// Left of the partition; right of it, below and above the shelf.
+// The numbers of disks left of the partition, and right of it below and above the shelf.
 std::array<std::size_t, 3> in_compartments(const State& state) {
-  const double shelf = 10.0 + (state.time > 0.0 ? 0.5 : 0.0);  // no disk is nearer to it than its radius
+  const double shelf = 10.0 + (state.time > 0.0 ? 0.5 : 0.0);  // no disk is closer to it than its radius
   std::array<std::size_t, 3> counts{};
   for (std::size_t i = 0; i < state.disks.size(); ++i) {
     counts[state.disks.x[i] < 8.0 ? 0 : state.disks.y[i] < shelf ? 1 : 2] += 1;
@@ -46,7 +46,7 @@ std::array<std::size_t, 3> in_compartments(const State& state) {
   return counts;
 }
 
-// After a quarter of a period more than two whole ones everything is half a length up.
+// After two and a quarter periods everything is up by half a unit of length.
 TEST(ShakenVessel, KeepsTheDisksInTheirCompartments) {
   for (const char* shape : {"parabola", "sine"}) {
     for (const char* method : {"exact", "pairwise"}) {
@@ -63,7 +63,7 @@ TEST(ShakenVessel, KeepsTheDisksInTheirCompartments) {
   }
 }
 
-// The disks feel the sum of the motions alone: energy is the work of floor, lid and walls.
+// The energy gained is the work of floor, lid and walls together.
 TEST(ShakenVessel, DoesTheWorkThatIsGainedWithTheBitsOfTheReference) {
   for (const char* shape : {"parabola", "sine"}) {
     SCOPED_TRACE(shape);

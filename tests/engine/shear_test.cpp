@@ -1,4 +1,5 @@
-// Lees-Edwards shear: crossings and contacts computed by hand, the energy account, bits, units, and what is refused.
+// Lees-Edwards shear: crossings and contacts computed by hand, the balance of energy, bits, units, and scenes that are
+// refused.
 #include "core/disks/shear.hpp"
 
 #include <fmt/format.h>
@@ -43,7 +44,7 @@ Scene flow_scene(const Flow& f) {
       "shear.toml", "");
 }
 
-// 10 x 10, images above at velocity `rate` times 10.
+// A box of 10 x 10, whose upper images move at 10 times `rate`.
 Scene empty_scene(Method method, double rate, double t_end) {
   Scene scene = scene_of(method, 10.0, 10.0, 0.001, t_end);
   set_sides(scene.box, SideKind::periodic, SideKind::periodic);
@@ -54,7 +55,8 @@ Scene empty_scene(Method method, double rate, double t_end) {
 const Method all_methods[] = {Method::exact, Method::pairwise, Method::rollback};
 const char* const method_words[] = {"exact", "pairwise", "rollback"};
 
-// x = 1 + t, y = 9 + 2 t: at the top at t = 1/2, where the image below is at x = 1.5 - 3 / 2 and 3 slower.
+// x = 1 + t, y = 9 + 2 t: the disk is at the top at t = 1/2, where the image below is at x = 1.5 - 3 / 2 and slower by
+// 3.
 TEST(Shear, ADiskThatCrossesTheTopComesBackDisplacedAndSlower) {
   for (const Method method : all_methods) {
     const Scene scene = empty_scene(method, 0.3, 2.0);
@@ -67,15 +69,15 @@ TEST(Shear, ADiskThatCrossesTheTopComesBackDisplacedAndSlower) {
   }
 }
 
-// The image above of the second disk goes from (3, 11.5) at (-1 + 4, -1): at t = 0.9 it is at (5.7, 10.6), and the
-// first disk a diameter below it.
+// The upper image of the second disk moves from (3, 11.5) at (-1 + 4, -1): at t = 0.9 it is at (5.7, 10.6), a diameter
+// above the first disk.
 TEST(Shear, DisksMeetAcrossTheBorder) {
   for (const Method method : all_methods) {
     const Scene scene = empty_scene(method, 0.4, 1.0);
     const State start = state_of({{3.9, 8.7, 2.0, 1.0, 0.5, 1.0}, {3.0, 1.5, -1.0, -1.0, 0.5, 1.0}});
     const State end = run(scene, start);
     ASSERT_EQ(end.counters.collisions, 1U);
-    // In the frame of the top: (2, 1) and (3, -1) exchange what is along y.
+    // In the frame of the top (2, 1) and (3, -1) exchange their components along y.
     EXPECT_NEAR(end.disks.vx[0], 2.0, 1e-11);
     EXPECT_NEAR(end.disks.vy[0], -1.0, 1e-11);
     EXPECT_NEAR(end.disks.vx[1], -1.0, 1e-11);
@@ -84,7 +86,7 @@ TEST(Shear, DisksMeetAcrossTheBorder) {
     EXPECT_NEAR(end.disks.y[0], 8.7 + 0.9 - 0.1, 1e-11);
     EXPECT_NEAR(end.disks.y[1], 1.5 - 0.9 + 0.1, 1e-11);
     EXPECT_NEAR(end.counters.shear_virial, 0.0, 1e-11) << "the line of centres is along y";
-    EXPECT_NEAR(end.counters.shear_work, 0.0, 1e-11) << "no momentum along x has been passed on";
+    EXPECT_NEAR(end.counters.shear_work, 0.0, 1e-11) << "no momentum along x has been transferred";
   }
 }
 
@@ -92,14 +94,14 @@ TEST(Shear, DisksMeetAcrossTheBorder) {
 TEST(Shear, ThePassingImagePushesAlongTheFlow) {
   for (const Method method : all_methods) {
     const Scene scene = empty_scene(method, 0.5, 1.0);
-    // The image above of the second goes by at 5, 0.1 above the first.
+    // The upper image of the second disk passes at speed 5, 0.1 above the first.
     const State start = state_of({{6.5, 9.9, 0.0, 0.0, 0.5, 1.0}, {2.0, 0.0, 0.0, 0.0, 0.5, 1.0}});
     const State end = run(scene, start);
     ASSERT_EQ(end.counters.collisions, 1U);
     const double ny = 0.1, nx = std::sqrt(1.0 - ny * ny);  // from the image to the first one: (nx, -ny)
     EXPECT_NEAR(end.disks.vx[0], 5.0 * nx * nx, 1e-10);
     EXPECT_NEAR(end.disks.vy[0], -5.0 * nx * ny, 1e-10);
-    EXPECT_NEAR(end.disks.vx[1], -5.0 * nx * nx, 1e-10) << "it was at rest, its image at 5";
+    EXPECT_NEAR(end.disks.vx[1], -5.0 * nx * nx, 1e-10) << "the disk was at rest, its image moved at 5";
     EXPECT_NEAR(end.disks.vy[1], 5.0 * nx * ny, 1e-10);
     EXPECT_NEAR(end.counters.virial, 5.0 * nx, 1e-10);
     EXPECT_NEAR(end.counters.shear_virial, -5.0 * nx * nx * ny, 1e-10);
@@ -120,7 +122,7 @@ TEST(Shear, TheOffsetIsAsSmoothAsTime) {
   }
 }
 
-// Elastic disks: all that they have more is the work of the images. To rounding, by every method.
+// Elastic disks: the energy gained is the work of the images, to rounding, in every method.
 TEST(Shear, WorkIsTheEnergyGained) {
   for (const char* method : method_words) {
     for (const char* rate : {"0.3", "-0.7"}) {
@@ -132,7 +134,7 @@ TEST(Shear, WorkIsTheEnergyGained) {
       const State end = run(scene, start);
       const double before = energy_of(start.disks, 0.0).kinetic, after = energy_of(end.disks, 0.0).kinetic;
       EXPECT_GT(end.counters.collisions, 300U);
-      EXPECT_GT(after, before * 1.02) << "it heats";
+      EXPECT_GT(after, before * 1.02) << "the flow must heat the disks";
       EXPECT_NEAR((before + end.counters.shear_work) / after, 1.0, 1e-12) << method;
       EXPECT_TRUE(energy_warnings(scene, run_start(start, scene), end).empty());
       const Momentum p = momentum_of(relative_to_flow(end.disks, scene.box));
@@ -148,7 +150,7 @@ TEST(Shear, ExactDisksNeverOverlap) {
   const Scene scene = flow_scene(f);
   run(scene, initial_state(scene), [&](const Engine& engine) {
     EXPECT_LT(max_overlap(engine.state().disks, box_at(scene.box, engine.state().time)), 1e-12);
-    Disks between;  // frames are read off the paths
+    Disks between;  // frames are computed from the paths
     const double t = engine.state().time - 1e-3;
     ASSERT_EQ(engine.disks_at(t, between), t);
     EXPECT_LT(max_overlap(between, box_at(scene.box, t)), 1e-12);
@@ -161,8 +163,8 @@ State run_on(const Scene& scene, const State& start, int threads, std::size_t di
   return engine->state();
 }
 
-// A bath of friction 2 rate (N T - N T0) takes what the shear heats by, stress times rate and area: the temperature
-// where both are the same. The noise works on velocities relative to the flow, whose mean stays 0.
+// A thermostat with the friction 2 rate (N T - N T0) removes the heat of the shear, stress times rate and area; the
+// temperature follows from the equality of both. The noise acts on velocities relative to the flow, whose mean stays 0.
 TEST(LongShear, ABathTakesTheHeatOfTheFlow) {
   Flow f;
   f.disks = 400;
@@ -191,9 +193,9 @@ TEST(LongShear, ABathTakesTheHeatOfTheFlow) {
   const double gain = energy_of(engine->state().disks, 0.0).kinetic - energy_of(early.disks, 0.0).kinetic;
   EXPECT_NEAR(gain, work + heat, 1e-9 * work);
   const double expected = 1.0 + work / weight / (2.0 * 0.05 * 400.0);
-  EXPECT_GT(expected, 2.0) << "the flow heats";
+  EXPECT_GT(expected, 2.0) << "the flow must heat the disks";
   EXPECT_NEAR(temperature / weight / expected, 1.0, 0.02);
-  EXPECT_NEAR(flow / weight, 0.0, 0.2) << "a walk whose mean over 9 times 1 / rate scatters by 0.04";
+  EXPECT_NEAR(flow / weight, 0.0, 0.2) << "the mean of this walk over 9 times 1 / rate scatters by 0.04";
 }
 
 TEST(Shear, AThermostatHasTheSameBitsOnAnyThreads) {
@@ -219,8 +221,8 @@ TEST(Shear, AThermostatHasTheSameBitsOnAnyThreads) {
   }
 }
 
-// Disks that go with the flow do not move against each other, however high the box: windows are as long in a box that
-// is four times as wide and as high.
+// Disks that move with the flow have no relative velocities, however high the box: windows are as long in a box four
+// times as wide and high.
 TEST(Shear, WindowsOfAHighBoxAreAsLong) {
   std::array<Count, 2> windows{};
   for (const int size : {1, 4}) {
@@ -235,7 +237,7 @@ TEST(Shear, WindowsOfAHighBoxAreAsLong) {
   EXPECT_LE(windows[1], windows[0] + 2);
 }
 
-// In a box so high that most disks are far from the images that move.
+// The box is so high that most disks are far from the moving images.
 TEST(LongShear, SameBitsFarFromTheImages) {
   for (const char* radius : {"0.5", "{ uniform = [0.05, 0.6] }"}) {
     Flow f;
@@ -318,7 +320,7 @@ TEST(Shear, RateZeroIsThePlainBox) {
   }
 }
 
-// Windows of other lengths change the results by rounding alone: for a while.
+// Other lengths of windows change the results only by rounding, for a while.
 TEST(Shear, WindowsDoNotMatter) {
   Flow f;
   f.t_end = 0.8;

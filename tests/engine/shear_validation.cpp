@@ -1,4 +1,5 @@
-// The viscosity of hard disks in a shear flow against the theory of Enskog, and the steady flow of scenes/couette.toml.
+// The viscosity of hard disks in a shear flow compared with Enskog's theory, and the steady flow of
+// scenes/couette.toml.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -15,8 +16,8 @@
 namespace carom {
 namespace {
 
-// Of disks of diameter 1 and mass 1 at temperature 1 (Gass 1971; Garcia-Rojo, Luding and Brey 2006): that of the dilute
-// gas, 1.022 / (2 sqrt(pi)), times 1 / chi + 2 nu + (1 + 8 / pi) chi nu^2.
+// For disks of diameter 1 and mass 1 at temperature 1 (Gass 1971; Garcia-Rojo, Luding and Brey 2006): the viscosity of
+// the dilute gas, 1.022 / (2 sqrt(pi)), times 1 / chi + 2 nu + (1 + 8 / pi) chi nu^2.
 double enskog_viscosity(double packing) {
   const double chi = (1.0 - 7.0 * packing / 16.0) / ((1.0 - packing) * (1.0 - packing));
   const double dilute = 1.022 / (2.0 * std::sqrt(std::numbers::pi));
@@ -24,12 +25,12 @@ double enskog_viscosity(double packing) {
 }
 
 struct Measured {
-  double viscosity = 0.0;    // over the root of the temperature, which it goes with
+  double viscosity = 0.0;    // over the square root of the temperature, to which it is proportional
   double temperature = 0.0;  // mean
   double last = 0.0;         // temperature at the end
 };
 
-// Means of samples about `every` apart, from `from` on.
+// Means over samples about `every` apart, from time `from` on.
 Measured measure(const Scene& scene, double from, double every) {
   const auto engine = make_parallel_engine(scene, initial_state(scene), {1, 1});
   while (engine->state().time < from) engine->step();
@@ -55,8 +56,8 @@ Measured measure(const Scene& scene, double from, double every) {
   return mean;
 }
 
-// Elastic disks heat up, which makes the shear slower against their own motion. The mean over such a run is known to
-// about 2 %.
+// Elastic disks heat up, so the shear becomes slower compared with their own motion. The mean over such a run has an
+// error of about 2 %.
 TEST(ShearFlow, HasTheViscosityOfEnskog) {
   for (const char* method : {"exact", "pairwise"}) {
     for (const double packing : {0.1, 0.2, 0.3}) {
@@ -69,24 +70,24 @@ TEST(ShearFlow, HasTheViscosityOfEnskog) {
           "shear.toml", "");
       const Measured m = measure(scene, 5.0, 0.25);
       EXPECT_NEAR(m.viscosity / enskog_viscosity(packing), 1.0, 0.06) << method << " " << packing;
-      EXPECT_GT(m.last, 2.0) << "the shear heats the disks";
+      EXPECT_GT(m.last, 2.0) << "the shear must heat the disks";
     }
   }
 }
 
-// What collisions lose, the shear gives: the temperature stays, whatever it was at the start.
+// The shear gives what collisions lose: the temperature becomes steady, with the same value from any start.
 TEST(ShearFlow, OfInelasticDisksIsSteady) {
   for (const char* start : {"0.3", "5.0"}) {
     const Scene scene = load_scene(CAROM_SOURCE_DIR "/scenes/couette.toml",
                                    {{"disks.0.velocities", fmt::format("{{ maxwell = {} }}", start)}});
     const Measured m = measure(scene, 60.0, 0.5);
     EXPECT_NEAR(m.viscosity / enskog_viscosity(0.2), 1.0, 0.06);
-    EXPECT_NEAR(m.temperature, 2.01, 0.12) << "found by a run ten times as long";
+    EXPECT_NEAR(m.temperature, 2.01, 0.12) << "2.01 is from a run ten times as long";
   }
 }
 
-// Collisions hand on no mean torque in a steady flow where disks turn with it: at half the vorticity, -g / 2 (C. K. K.
-// Lun, J. Fluid Mech. 233, 539, 1991). Disks that begin without spin take it up
+// In a steady flow collisions transfer no mean torque if disks turn with the flow, at half the vorticity, -g / 2 (C. K.
+// K. Lun, J. Fluid Mech. 233, 539, 1991). Disks without spin at first take this value.
 TEST(ShearFlow, TurnsRoughDisksByHalfItsVorticity) {
   for (const char* surface : {"tangential_restitution = 0.2", "tangential_restitution = 0.5, friction = 0.3"}) {
     const Scene scene = load_scene(CAROM_SOURCE_DIR "/scenes/couette.toml",
@@ -106,7 +107,7 @@ TEST(ShearFlow, TurnsRoughDisksByHalfItsVorticity) {
     const double error = std::sqrt((square / samples - mean * mean) / samples);
     const double expected = -0.5 * scene.box.shear.rate;
     EXPECT_NEAR(mean / expected, 1.0, 0.05) << surface << ": " << error / std::abs(expected);
-    EXPECT_LT(error, 0.015 * std::abs(expected)) << "it is known to that";
+    EXPECT_LT(error, 0.015 * std::abs(expected)) << "the statistical error is too large";
   }
 }
 

@@ -1,4 +1,5 @@
-// Steps in a sheared box are split as fast disks need it, those that have just come through its top or bottom, too.
+// Steps in a sheared box are split according to the fastest disks, including those that have just come through its top
+// or bottom.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,8 +15,8 @@
 namespace carom {
 namespace {
 
-// Against the flow at the top a disk has a speed of 5; at the bottom, where it comes in, the jump of 10 has made that
-// 15, with which it goes further in a step than half of its radius.
+// A disk at the top moves against the flow at 5; when it comes in at the bottom the jump of 10 has made that 15, with
+// which it moves further in a step than half of its radius.
 TEST(ShearedSteps, AreSplitWhereADiskHasJumpedToAHighSpeed) {
   const Scene scene = parse_scene(
       "[box]\nwidth = 10.0\nheight = 10.0\nleft = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\n"
@@ -33,8 +34,8 @@ TEST(ShearedSteps, AreSplitWhereADiskHasJumpedToAHighSpeed) {
   EXPECT_EQ(plain->state().validity.parts.figure, 2.0);
 }
 
-// The shear heats these disks so much within one step of 158 parts that some go further than the height of the box in a
-// part. They come back into it all the same, and so the search sees them.
+// The shear heats these disks so much within one step of 158 parts that some move further than the height of the box in
+// a part. They must be put back into it, so that the search finds them.
 TEST(ShearedSteps, BringDisksBackThatGoFurtherThanTheBox) {
   const Scene scene = parse_scene(
       "seed = 895681\n[box]\nwidth = 25.985648614130938\nheight = 3.846\nleft = \"periodic\"\nright = \"periodic\"\n"

@@ -1,5 +1,5 @@
-// Silos come to rest, whatever their height and the sizes in them; disks never overlap by more than 2 % on the way;
-// floor and sides bear what they must. (A pile of rigid disks without friction is as good as a liquid to the sides.)
+// Silos of any height and with any sizes come to rest; disks never overlap by more than 2 % on the way; floor and sides
+// bear the right forces. (A pile of rigid disks without friction presses the sides like a liquid.)
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,10 +16,10 @@
 namespace carom {
 namespace {
 
-// Of the disks that are held. A small one on the floor, below an arch that bears the others, slides: the forces of its
-// neighbours are too small to stop it.
+// The largest speed of disks that are held. A small disk on the floor, below an arch that bears the others, slides: the
+// forces of its neighbours are too small to stop it.
 double largest_speed(const State& state, double gravity) {
-  std::vector<double> pressed(state.next_id, 0.0);  // by other disks and the sides
+  std::vector<double> pressed(state.next_id, 0.0);  // forces of other disks and the sides
   for (const ContactLoad& load : state.loads) {
     if (load.id2 == wall_partner(Side::bottom)) continue;
     pressed[load.id1] += load.force;
@@ -78,7 +78,8 @@ void expect_to_rest(const test::Silo& silo) {
   EXPECT_LT(kinetic, 1e-6);
   EXPECT_LT(speed, 1e-3);
   EXPECT_NEAR(floor, 1.0, 0.01);
-  // Equal disks make a crystal, which carries more of itself; a flat filling has too few layers for an average.
+  // Equal disks form a crystal, which carries more of its weight itself; a flat filling has too few layers for an
+  // average.
   if (silo.smallest < silo.largest && silo.aspect >= 1.0) {
     EXPECT_GT(left, 0.8);
     EXPECT_LT(left, 1.25);
@@ -103,7 +104,7 @@ TEST(Silo, OfRadiiOneToTen) {
   expect_to_rest({300, 1.0, 0.1, 1.0, 0.003});
 }
 
-// The longest step that is not cut for the disks that land: half the smallest radius in a step.
+// The longest step that is not split for landing disks: they move by half the smallest radius.
 TEST(Silo, WithTheLongestSafeStep) {
   test::Silo silo{400, 1.4, 0.4, 0.6, 0.01};
   const double landing = std::sqrt(2.0 * test::silo_scene(silo).box.height);
@@ -111,8 +112,9 @@ TEST(Silo, WithTheLongestSafeStep) {
   expect_to_rest(silo);
 }
 
-// The exact method's pile hops with the TC model; on average floor and sides bear the same. How steeply a heap of a
-// hundred disks pushes depends on how they came to lie, by 0.16 of the mean (16 heaps): it is that of eight.
+// With the exact method the pile hops in the TC model, and on average floor and sides bear the same. The forces on the
+// sides of a heap of a hundred disks depend on how these came to lie, by 0.16 of the mean (from 16 heaps); so the mean
+// of eight is taken.
 TEST(Silo, ByTheExactMethodBearsTheSame) {
   constexpr std::uint64_t heaps = 8;
   double sum = 0.0;

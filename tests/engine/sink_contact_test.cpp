@@ -1,4 +1,5 @@
-// One rule for the sinks of all methods: what touches one is taken, whether it moves into it, along it or not at all.
+// Sinks have one rule in all methods: a disk that touches one is taken, whether it moves into it, along it or not at
+// all.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -39,7 +40,7 @@ TEST_P(SinkContact, WhatTouchesAtTheStartIsTaken) {
     scene.box.sides[static_cast<std::size_t>(side)] = SideKind::sink;
     const bool across_x = side == Side::left || side == Side::right;
     const double inward = side == Side::left || side == Side::bottom ? 1.0 : -1.0;
-    // At rest, along the side, away from it, into it.
+    // A disk at rest, and disks that move along the side, away from it, and into it.
     for (const Vec2 v : {Vec2{0.0, 0.0}, Vec2{0.0, 1.0}, Vec2{inward, 0.5}, Vec2{-inward, 0.0}}) {
       Disk disk{10.0, 10.0, across_x ? v.x : v.y, across_x ? v.y : v.x, 0.5, 1.0};
       (across_x ? disk.x : disk.y) = touching_coordinate(side, disk.radius, scene.box);
@@ -54,19 +55,20 @@ TEST_P(SinkContact, WhatOnlyComesNearIsNot) {
   expect_removed(scene, test::state_of(scene, {{0.5 + 1e-12, 10.0, 0.0, 1.0, 0.5, 1.0}}), 0);
 }
 
-// A disk that rises just far enough to touch, or just not.
+// A disk that rises just high enough to touch the sink, or just not.
 TEST_P(SinkContact, AlongTheTopOfAParabola) {
   Scene scene = test::scene_of(GetParam(), 20.0, 20.0, 0.001, 2.0);
   scene.physics.gravity = 1.0;
   scene.box.sides[static_cast<std::size_t>(Side::top)] = SideKind::sink;
-  // Rises by v^2 / 2 g = 0.5: to 19.51, where it would overlap the side by 0.01, or to 19.49.
+  // The disk rises by v^2 / 2 g = 0.5: to 19.51, where it would overlap the side by 0.01, or to 19.49.
   for (const bool reaches : {true, false}) {
     const State start = test::state_of(scene, {{10.0, reaches ? 19.01 : 18.99, 0.0, 1.0, 0.5, 1.0}});
     EXPECT_EQ(test::run(scene, start).counters.removed, reaches ? 1U : 0U);
   }
 }
 
-// A side that is source and sink: an open boundary. Disks enter all but touching, so that they stay to move inward.
+// A side that is source and sink is an open boundary. Disks start slightly inside, without touching it, so that they
+// can move inwards.
 TEST_P(SinkContact, ASourceOnASinkSideLetsDisksIn) {
   for (const char* side : {"left", "right", "bottom", "top"}) {
     const Scene scene = parse_scene(
@@ -111,8 +113,8 @@ TEST(SinkSource, BrownianDisksThatWouldVanishAtOnceAreRefused) {
   }
 }
 
-// A Brownian disk is taken with probability exp(-d1 d2 / (D dt)), d1 and d2 its distances from the side before and
-// after the step (see sink_crossed): whatever these are, as the number that is drawn for it says.
+// A Brownian disk is taken with probability exp(-d1 d2 / (D dt)), where d1 and d2 are its distances from the side
+// before and after the step (see sink_crossed). The number drawn must decide so for any distances.
 TEST(BrownianSink, CrossingIsThatOfABridge) {
   Scene scene = test::scene_of(Method::pairwise, 20.0, 20.0, 0.01, 2.0);
   scene.physics.diffusion = 0.5;
@@ -121,7 +123,7 @@ TEST(BrownianSink, CrossingIsThatOfABridge) {
   Count taken = 0, near = 0;
   for (DiskId id = 0; id < 20000; ++id) {
     const TwoUniforms u = uniforms(1, Stream::radius, id, 0);
-    // d1 d2 up to 60 D dt, most of them far below; d2 is d1 less a step of a tenth.
+    // d1 d2 is up to 60 D dt, but mostly far smaller; d2 differs from d1 by at most a tenth.
     const double distance = std::sqrt(60.0 * spread) * u.a * u.a + 0.011;
     const double gained = 0.2 * (u.b - 0.5) * distance;
     const State start = test::state_of(scene, {{0.5 + distance, 10.0, gained / dt, 0.0, 0.5, 1.0, id}});
@@ -143,7 +145,7 @@ TEST(BrownianSink, CrossingIsThatOfABridge) {
   EXPECT_LT(near, 20000U);
 }
 
-// What lets sink_crossed do without a logarithm: none of a uniform is below -37.
+// sink_crossed can omit the logarithm for large distances, since that of a uniform deviate is never below -37.
 TEST(BrownianSink, NoUniformIsFurtherOut) {
   EXPECT_GT(deterministic_log(0x1p-53), -37.0);
 }

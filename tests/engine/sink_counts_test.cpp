@@ -1,5 +1,5 @@
-// How many disks each sink took, by every method, the reference and the engine. That they agree on random scenes, on
-// any number of threads and ranks, and when resumed, is seen where their counters are compared.
+// The number of disks taken by each sink, in every method, in the reference and the engine. Their agreement in random
+// scenes, on any number of threads and ranks, and after resuming, is tested where counters are compared.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -32,15 +32,15 @@ State by_engine(const Scene& scene) {
 
 TEST(SinkCounts, AreThoseOfTheSinkAsked) {
   State state;
-  EXPECT_EQ(taken_by({0, "left"}, state), 0U) << "none has taken any";
+  EXPECT_EQ(taken_by({0, "left"}, state), 0U) << "no sink has taken a disk";
   state.taken = {1, 2, 3};
   EXPECT_EQ(taken_by({0, "left"}, state), 1U);
   EXPECT_EQ(taken_by({2, "bottom"}, state), 3U);
   EXPECT_EQ(taken_by({3, "top"}, state), 0U);
 }
 
-// The left side and two of three pockets, of which the last has two pieces; no disk reaches the one in the middle.
-// Their numbers are those of their tables, walls counted.
+// The left side and two of three pockets, of which the last has two segments; no disk reaches the middle one. Pockets
+// have the numbers of their tables, with walls counted.
 TEST(SinkCounts, EachHasThoseThatItTook) {
   const std::string walls = segment("[1, 1], [2, 1]", "wall") + segment("[10, 2], [10, 4]", "sink") +
                             segment("[12, 2], [12, 4]", "sink") + segment("[10, 6], [10, 8], [10, 10]", "sink");
@@ -56,7 +56,7 @@ TEST(SinkCounts, EachHasThoseThatItTook) {
   }
 }
 
-// In time stepping, where the order of contacts within a step is not known: the side, then the first table.
+// In time stepping the order of contacts within a step is not known: sides come first, then tables in their order.
 TEST(SinkCounts, OfTwoSinksTouchedAtOnceTheFirstTakesTheDisk) {
   for (const char* method : {"pairwise", "rollback"}) {
     const Scene scene =
@@ -71,7 +71,7 @@ TEST(SinkCounts, OfTwoSinksTouchedAtOnceTheFirstTakesTheDisk) {
   }
 }
 
-// Disks of Brownian motion that cross a side unseen within an interval are counted for that side.
+// Brownian disks that cross a side within an interval are counted for that side.
 TEST(SinkCounts, BrownianDisksThatCrossASideUnseen) {
   for (const char* method : methods) {
     const Scene scene = parse_scene(

@@ -1,4 +1,4 @@
-// Brownian motion in absorbing boxes against theory, and the whole run of brownian_sink.
+// Brownian motion in absorbing boxes compared with theory, and the whole run of brownian_sink.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,9 +12,10 @@
 namespace carom {
 namespace {
 
-// Uniform start in an absorbing square of side L (for a disk, the side less a diameter): share left at tau = D t / L^2,
-// the values of docs/reference_values.md. Disks so small that they hardly ever meet; a long step (tau 0.0025), so that
-// without the crossing probability of sinks the share would come out far too high. 3 standard errors.
+// Disks start uniformly in an absorbing square of side L (the box's side minus a diameter). The share left at tau = D t
+// / L^2 is compared with docs/reference_values.md, with a tolerance of 3 standard errors. The disks are so small that
+// they hardly ever meet. The step is so long (tau 0.0025) that without the crossing probability of sinks the share
+// would be far too high.
 TEST(Sink, AbsorbingSquareLeavesWhatTheorySays) {
   const double tau[] = {0.01, 0.02, 0.05, 0.1, 0.2};
   const double survival[] = {0.599578, 0.463552, 0.245929, 0.0912753, 0.0126781};
@@ -49,7 +50,7 @@ TEST(Sink, AbsorbingSquareLeavesWhatTheorySays) {
   }
 }
 
-// The whole run: the count only falls, and in the end hardly any disk is left (the slowest mode has decayed by
+// The whole run: the number of disks only falls, and at the end hardly any is left (the slowest mode has decayed by
 // exp(-2)).
 TEST(Sink, BrownianSinkSceneOnlyTakes) {
   const Scene scene = load_scene(CAROM_SOURCE_DIR "/scenes/brownian_sink.toml");

@@ -1,4 +1,4 @@
-// Disks that come and go: rates, room, limits, sinks, identities.
+// Disks that come and go: rates, room, limits, sinks, ids.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ class SourceSink : public testing::TestWithParam<Method> {
 INSTANTIATE_TEST_SUITE_P(Methods, SourceSink, testing::ValuesIn(test::stepping_methods),
                          [](const auto& method) { return test::name_of(method.param); });
 
-// The k-th disk comes at k / rate, also where rate * (k / rate) is rounded below k.
+// The k-th disk is due at k / rate, even if rate * (k / rate) is rounded to less than k.
 TEST(SourceRate, TheKthDiskIsDueAtKOverRate) {
   for (const double rate : {49.0, 3.0, 0.7, 1e-3, 1e5}) {
     Source source;
@@ -36,7 +36,8 @@ TEST(SourceRate, TheKthDiskIsDueAtKOverRate) {
   }
 }
 
-// The k-th disk is due at k / rate: with room for all, after every step floor(rate t) are there, t the step's start.
+// The k-th disk is due at k / rate. If there is room for all, floor(rate t) disks have come after every step, where t
+// is the step's start.
 TEST_P(SourceSink, EmitsAtItsRate) {
   Scene s = scene(0.1, 20.0);
   Source source = test::source_in({1.0, 1.0}, {99.0, 99.0}, 7.0, 0.1);
@@ -52,13 +53,14 @@ TEST_P(SourceSink, EmitsAtItsRate) {
   EXPECT_EQ(end.next_id, end.counters.emitted);
 }
 
-// A disk that leaves through a sink was there up to then, to half a step: rates are per disk that was there.
+// The time of a disk that leaves through a sink counts until it leaves, to half a step; rates are relative to the sum
+// of these times.
 TEST_P(SourceSink, CountsHowLongDisksAreThere) {
   constexpr double dt = 0.25;
   Scene s = scene(dt, 64.0);
   s.box.sides[static_cast<std::size_t>(Side::left)] = SideKind::sink;
-  const State start = test::state_of(s, {{11.0, 20.0, -1.0, 0.0, 1.0, 1.0},   // leaves at 10
-                                         {41.0, 40.0, -2.0, 0.0, 1.0, 1.0},   // at 20
+  const State start = test::state_of(s, {{11.0, 20.0, -1.0, 0.0, 1.0, 1.0},   // leaves at t = 10
+                                         {41.0, 40.0, -2.0, 0.0, 1.0, 1.0},   // leaves at t = 20
                                          {50.0, 80.0, 0.0, 0.0, 1.0, 1.0}});  // stays
   const State end = test::run(s, start);
   EXPECT_EQ(end.counters.removed, 2U);
@@ -66,7 +68,7 @@ TEST_P(SourceSink, CountsHowLongDisksAreThere) {
   EXPECT_NEAR(end.counters.disk_time, 10.0 + 20.0 + 64.0, 2.0 * dt);
 }
 
-// The same of exact, to the time at which a sink takes it, whatever the windows; on any number of threads.
+// In exact the time counts until the contact with the sink, for any windows and any number of threads.
 TEST(ExactSink, CountsHowLongDisksAreThere) {
   Scene s = test::scene_of(Method::exact, 100.0, 100.0, 0.25, 64.0);
   s.box.sides[static_cast<std::size_t>(Side::left)] = SideKind::sink;
@@ -83,7 +85,8 @@ TEST(ExactSink, CountsHowLongDisksAreThere) {
   }
 }
 
-// More than find room: none ever overlaps, the rest waits and is counted, and the limit holds.
+// More disks are due than there is room for: none ever overlaps another, the rest waits and is counted, and the limit
+// holds.
 TEST_P(SourceSink, NeverIntoAnOverlap) {
   Scene s = scene(0.05, 10.0);
   Source source = test::source_in({10.0, 10.0}, {20.0, 20.0}, 50.0, 1.0);
@@ -114,7 +117,7 @@ TEST_P(SourceSink, StopsAtItsLimit) {
   EXPECT_EQ(end.disks.size(), 50U);
 }
 
-// Likewise with exact: none waits for more than the limit.
+// The same in exact: no more disks wait than the limit allows.
 TEST(ExactSource, StopsAtItsLimit) {
   Scene s = test::scene_of(Method::exact, 100.0, 100.0, 0.1, 3.0);
   for (const double y : {20.0, 80.0}) {
@@ -127,14 +130,14 @@ TEST(ExactSource, StopsAtItsLimit) {
   EXPECT_EQ(end.counters.waiting, 0U);
 }
 
-// A sink takes a disk in the step in which its edge touches, not its centre, and no other disk.
+// A sink takes a disk in the step in which the disk's edge touches it, not its centre, and takes no other disk.
 TEST_P(SourceSink, SinkRemovesOnContact) {
   for (Side side : all_sides) {
     Scene s = scene(0.1, 3.0);
     s.box.sides[static_cast<std::size_t>(side)] = SideKind::sink;
     const bool across_x = side == Side::left || side == Side::right;
     const double out = side == Side::left || side == Side::bottom ? -1.0 : 1.0;
-    // 2.05 from the side, at speed 1: touches at 2.05, within the step that ends at 2.1.
+    // The disk is 2.05 from the side, at speed 1: it touches at t = 2.05, within the step that ends at 2.1.
     Disk leaving{50.0, 50.0, 0.0, 0.0, 1.0, 1.0};
     (across_x ? leaving.x : leaving.y) = 50.0 + out * 46.95;
     (across_x ? leaving.vx : leaving.vy) = out;
@@ -148,7 +151,8 @@ TEST_P(SourceSink, SinkRemovesOnContact) {
   }
 }
 
-// Left to right through the box: every disk has an id of its own, larger for a later one, none used twice.
+// Disks move through the box from left to right: each has an id of its own, later ones a larger one, and none is used
+// twice.
 TEST_P(SourceSink, IdsAreNeverReused) {
   Scene s = test::scene_of(GetParam(), 20.0, 20.0, 0.05, 20.0);
   s.box.sides[static_cast<std::size_t>(Side::right)] = SideKind::sink;
@@ -172,8 +176,8 @@ TEST_P(SourceSink, IdsAreNeverReused) {
   EXPECT_EQ(end.disks.size(), end.counters.emitted - end.counters.removed);
 }
 
-// A disk that is due at the end of a run does not come, also where k / rate is below t_end by rounding, as 33 / 1.1 is
-// below 30; where the run goes on it does.
+// A disk that is due at the end of a run does not come, even if k / rate is below t_end by rounding, as 33 / 1.1 is
+// below 30; it comes if the run goes on.
 TEST(ExactSource, NoDiskComesAtTheEnd) {
   struct Case {
     double rate, t_end;
@@ -186,7 +190,7 @@ TEST(ExactSource, NoDiskComesAtTheEnd) {
     source.velocities.temperature = 1.0;
     s.sources.push_back(source);
     Scene longer = s;
-    longer.run.t_end = c.t_end + 0.5 / c.rate;  // before the next one is due
+    longer.run.t_end = c.t_end + 0.5 / c.rate;  // before the next disk is due
     const Count whole = test::run(longer, test::state_of(s, {})).counters.emitted;
     for (const bool reference : {true, false}) {
       const auto finish = [&](const Scene& scene, const State& from) {

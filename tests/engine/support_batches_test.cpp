@@ -1,5 +1,5 @@
-// Supports in batches of four: each is in one, those of a batch share no disk, those of a disk keep their order; and
-// the kernels over batches have the bits of relaxing one support after the other.
+// Supports in batches of four: each support is in one batch, those of a batch share no disk, and those of a disk keep
+// their order; and the kernels for batches have the bits of relaxing the supports one by one.
 #include "parallel/stepping/support_batches.hpp"
 
 #include <gtest/gtest.h>
@@ -20,8 +20,8 @@
 namespace carom {
 namespace {
 
-// Patches of so many contacts each, which share no disk: patch q has disks [q n, (q + 1) n), and in_patch(k) are the
-// disks of its contact k, from 0 on.
+// Patches with n contacts each, which share no disk: patch q has the disks [q n, (q + 1) n), and in_patch(k) gives the
+// disks of its contact k, counted from 0.
 struct Contacts {
   std::size_t disks = 0;
   std::vector<Pair> pairs;
@@ -62,7 +62,7 @@ SupportBatches batches_of(const Contacts& c, IsSupport&& is_support) {
   return batches;
 }
 
-// Contacts between random disks of a patch; one in eight at a wall.
+// Contacts between random disks of a patch; one in eight is with a wall.
 Contacts random_contacts(std::size_t patches, std::size_t disks, std::size_t contacts) {
   std::mt19937 random(11);
   return {patches, disks, contacts, [&](std::size_t) {
@@ -79,7 +79,7 @@ TEST(SupportBatches, KeepEachDisksOrderAndShareNoDisk) {
     const auto is_support = [](std::size_t at) { return at % 7 != 3; };
     const SupportBatches batches = batches_of(c, is_support);
     std::vector<std::set<std::uint32_t>> in_batch(batches.batch.size());
-    std::vector<std::int64_t> latest(c.disks, -1);  // batch of each disk's support before
+    std::vector<std::int64_t> latest(c.disks, -1);  // batch of each disk's previous support
     std::set<std::uint32_t> slots;
     for (std::size_t q = 0; q < c.patches.count(); ++q) {
       for (std::uint32_t at = c.patches.start[q]; at < c.patches.start[q + 1]; ++at) {
@@ -100,7 +100,7 @@ TEST(SupportBatches, KeepEachDisksOrderAndShareNoDisk) {
   }
 }
 
-// What other patches, and steps before, did with the same disks is no matter.
+// The batches of a patch must not depend on how other patches, or earlier steps, used the same disks.
 TEST(SupportBatches, OfAPatchDoNotDependOnOthers) {
   const auto all = [](std::size_t) { return true; };
   const Contacts one = random_contacts(1, 20, 60);
@@ -137,7 +137,8 @@ TEST(SupportBatches, GiveBackWhatWasPut) {
   EXPECT_EQ(s.i2, 9U);
 }
 
-// Where each disk has few of many contacts, hardly a lane is left over; and along a chain, all but one of each batch.
+// If each disk has few of many contacts, hardly any lane is left empty; along a chain only one lane of each batch is
+// used.
 TEST(SupportBatches, AreFullWhereContactsAllowIt) {
   const auto all = [](std::size_t) { return true; };
   EXPECT_LE(batches_of(random_contacts(1, 2000, 4000), all).batch.size(), 1020U);
@@ -145,7 +146,7 @@ TEST(SupportBatches, AreFullWhereContactsAllowIt) {
     return Pair{static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(k + 1)};
   };
   EXPECT_EQ(batches_of({1, 101, 100, chain}, all).batch.size(), 100U);
-  // Ten such chains one after the other run side by side, as rows of a lattice do.
+  // Ten such chains side by side can share batches, like the rows of a lattice.
   const auto rows = [](std::size_t k) {
     const auto i = static_cast<std::uint32_t>(k / 100 * 101 + k % 100);
     return Pair{i, i + 1};
@@ -155,7 +156,7 @@ TEST(SupportBatches, AreFullWhereContactsAllowIt) {
 
 struct Supports {
   Contacts contacts = random_contacts(2, 60, 201);
-  std::vector<Support> serial;  // of each contact
+  std::vector<Support> serial;  // for each contact
   SupportBatches batches;
   SupportSet of_serial, of_batches;
 };
@@ -164,7 +165,7 @@ double between(std::mt19937& random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(random);
 }
 
-// Unequal masses, some impulses negative as momentum may leave them, walls that move.
+// Unequal masses, some negative impulses as momentum may leave them, and moving walls.
 Supports random_supports() {
   Supports s;
   std::mt19937 random(5);
@@ -211,7 +212,7 @@ template <Watch watch>
 void expect_same_bits(const SweepKernels& kernels) {
   Supports s = random_supports();
   const SweepInput in = input_of(s);
-  CycleFigures serial, serial_back;  // of the sweeps forward, and of those back
+  CycleFigures serial, serial_back;  // of the forward sweeps, and of the backward ones
   CycleFigures batches, batches_back;
   const bool watched = watch != Watch::nothing;
   const std::size_t n = s.serial.size();
@@ -243,12 +244,12 @@ void expect_same_bits(const SweepKernels& kernels) {
     for (std::size_t k = 0; k < n; ++k) {
       EXPECT_EQ((s.of_serial.*column)[k], (s.of_batches.*column)[s.batches.slot[k]]) << k;
     }
-    // Sums are taken over all slots.
+    // Sums are taken over all slots, so unused ones must be 0.
     const std::set<std::uint32_t> taken(s.batches.slot.begin(), s.batches.slot.end());
     EXPECT_LT(taken.size(), s.batches.slots());
     for (std::uint32_t slot = 0; slot < s.batches.slots(); ++slot) {
       if (taken.count(slot) > 0) continue;
-      EXPECT_EQ((s.of_batches.*column)[slot], 0.0) << "left over: " << slot;
+      EXPECT_EQ((s.of_batches.*column)[slot], 0.0) << "unused slot " << slot;
     }
   }
 }
@@ -264,7 +265,8 @@ TEST(SweepKernels, HaveTheBitsOfOneSupportAfterTheOther) {
   if (choose_kernel_set(nullptr) == KernelSet::avx2) expect_same_bits_with(sweep_kernels_avx2());
 }
 
-// A velocity that is no number stays with the disks that touch: neither other walls nor spare disks hand it on.
+// A velocity that is not a number stays within the disks that touch: neither other walls nor spare disks may pass it
+// on.
 TEST(SweepKernels, KeepWhatIsNoNumberAmongTheDisksThatTouch) {
   const auto check = [](const SweepKernels& kernels) {
     const auto at_walls = [](std::size_t k) {

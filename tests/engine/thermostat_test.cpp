@@ -1,4 +1,4 @@
-// Thermostats: that disks come to the canonical ensemble of the temperature, and that the energy account is kept.
+// Thermostats: disks reach the canonical ensemble of the given temperature, and the balance of energy holds.
 #include "core/step/thermostat.hpp"
 
 #include <fmt/format.h>
@@ -42,10 +42,10 @@ Scene scene_of(const Bath& b) {
 
 struct Sampled {
   double mean = 0.0, variance = 0.0;  // of the kinetic energy
-  double x_share = 0.0;               // of the motion along x, the walls' direction
+  double x_share = 0.0;               // share of the motion along x, the direction of the walls
 };
 
-// The kinetic energy once in so long a time, from `from` on.
+// Samples of the kinetic energy `every` apart, from time `from` on.
 Sampled sample(Engine& engine, const Scene& scene, double from, double every) {
   std::vector<double> kinetic;
   double along_x = 0.0, total = 0.0;
@@ -72,7 +72,7 @@ TEST(Kick, KeepsMaxwellsDistribution) {
   }
 }
 
-// In a shear the velocity relative to the flow is kept, vx = g (y - h / 2): a kick without noise halves it.
+// In a shear a kick acts on the velocity relative to the flow, vx = g (y - h / 2): without noise it halves that.
 TEST(Kick, IsRelativeToTheFlow) {
   Scene scene = test::scene_of(Method::exact, 10.0, 8.0, 0.0, 1.0);
   scene.box.sides.fill(SideKind::periodic);
@@ -84,15 +84,15 @@ TEST(Kick, IsRelativeToTheFlow) {
   });
   EXPECT_EQ(d.vx[0], 1.5 + 0.5 * (4.0 - 1.5));
   EXPECT_EQ(d.vy[0], 1.5);
-  EXPECT_DOUBLE_EQ(given, 2.75 * 2.75 + 1.5 * 1.5 - (16.0 + 9.0)) << "in the laboratory, with a mass of 2";
+  EXPECT_DOUBLE_EQ(given, 2.75 * 2.75 + 1.5 * 1.5 - (16.0 + 9.0)) << "in the laboratory frame, with a mass of 2";
 }
 
-// Kick k is due at k dt, and where rounding has brought the time of a step a little before that: 1e-12 of it.
+// Kick k is due at k dt, also if the time of a step is a little before that by rounding, 1e-12 of it.
 TEST(Kick, IsDueButForRounding) {
   Scene scene = test::scene_of(Method::pairwise, 10.0, 8.0, 0.1, 10.0);
   scene.physics.thermostat = {Thermostat::Kind::langevin, 1.0, 1.0, 0.3};
   State state;
-  EXPECT_TRUE(is_kick_due(scene, state)) << "the first at 0";
+  EXPECT_TRUE(is_kick_due(scene, state)) << "the first kick is due at 0";
   state.intervals = 7;
   for (const auto& [time, due] : {std::pair(2.1, true), std::pair(2.1 * (1.0 - 1e-14), true), std::pair(2.2, true),
                                   std::pair(2.1 * (1.0 - 1e-11), false), std::pair(2.0, false)}) {
@@ -101,8 +101,8 @@ TEST(Kick, IsDueButForRounding) {
   }
 }
 
-// N disks have 2 N degrees of freedom: the mean of the kinetic energy is N T, its variance N T^2. An isolated gas has
-// none.
+// N disks have 2 N degrees of freedom: the kinetic energy has the mean N T and the variance N T^2. In an isolated gas
+// it has no variance.
 TEST(LongThermostat, GivesTheCanonicalEnsemble) {
   for (const char* method : {"exact", "pairwise"}) {
     for (const char* kind : kinds) {
@@ -123,7 +123,7 @@ TEST(LongThermostat, GivesTheCanonicalEnsemble) {
   }
 }
 
-// Elastic: what the disks have more is what the thermostat gave.
+// Elastic disks: the energy gained is that from the thermostat.
 TEST(Thermostat, BooksItsHeat) {
   for (const char* method : methods) {
     for (const char* kind : kinds) {
@@ -137,15 +137,15 @@ TEST(Thermostat, BooksItsHeat) {
       while (engine->state().time < scene.run.t_end) engine->step();
       const double before = energy_of(start.disks, 0.0).kinetic, after = energy_of(engine->state().disks, 0.0).kinetic;
       const double heat = engine->state().counters.thermostat_heat;
-      EXPECT_LT(heat, -0.5 * before) << "it cools";
+      EXPECT_LT(heat, -0.5 * before) << "the thermostat must cool the disks";
       EXPECT_NEAR((before + heat) / after, 1.0, 1e-11) << method << " " << kind;
       EXPECT_TRUE(energy_warnings(scene, run_start(start, scene), engine->state()).empty());
     }
   }
 }
 
-// Kicks at 0, dt, 2 dt and so on, and none at t_end, where 3 times 0.3 is less than 0.9 by rounding, and 3 times 0.1
-// more than 0.3: all methods end with the same velocities.
+// Kicks are at 0, dt, 2 dt and so on, and none is at t_end, although by rounding 3 times 0.3 is less than 0.9, and 3
+// times 0.1 more than 0.3: all methods end with the same velocities.
 TEST(Thermostat, GivesNoKickAtTheEnd) {
   const std::vector<Disk> free_disks = {{10.0, 10.0, 1.0, 0.0, 0.5, 1.0}, {40.0, 40.0, 0.0, 1.0, 0.5, 1.0}};
   struct Case {
@@ -172,8 +172,8 @@ TEST(Thermostat, GivesNoKickAtTheEnd) {
   }
 }
 
-// Inelastic disks, driven: colder than the bath, at the temperature at which a collision loses (1 - e^2) T on average
-// (of Maxwell's distribution) and all collisions what the thermostat gives. Equal masses.
+// Driven inelastic disks are colder than the thermostat. Their temperature is such that collisions, each of which loses
+// (1 - e^2) T on average (for Maxwell's distribution), lose what the thermostat gives. Equal masses.
 TEST(Thermostat, BalancesWhatCollisionsLose) {
   Bath b;
   b.restitution = 0.9;
@@ -187,7 +187,7 @@ TEST(Thermostat, BalancesWhatCollisionsLose) {
   const Counters before = engine->state().counters;
   const Sampled s = sample(*engine, scene, 30.0, 0.4);
   const Counters& after = engine->state().counters;
-  // Sampled where it is lowest, just before a kick; half a kick more is the mean.
+  // Samples are taken where the energy is lowest, just before a kick; adding half a kick gives the mean.
   const double heat = after.thermostat_heat - before.thermostat_heat;
   const double kicks = (b.t_end - 30.0) / 0.2;
   const double temperature = (s.mean + 0.5 * heat / kicks) / b.disks;
@@ -196,7 +196,7 @@ TEST(Thermostat, BalancesWhatCollisionsLose) {
       static_cast<double>(after.collisions - before.collisions) * (1.0 - b.restitution * b.restitution) * temperature;
   std::printf("temperature %.3f of the bath's, heat over what collisions lose %.4f\n", temperature / b.temperature,
               heat / lost);
-  EXPECT_NEAR(heat / lost, 1.0, 0.05);  // velocities before collisions are correlated a little
+  EXPECT_NEAR(heat / lost, 1.0, 0.05);  // velocities before collisions are slightly correlated
 }
 
 }  // namespace

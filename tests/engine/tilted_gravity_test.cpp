@@ -1,4 +1,4 @@
-// Gravity as a vector: parabolas at every side, slopes, piles in corners, and scenes that are turned with it.
+// Gravity as a vector: parabolas at every side, slopes, piles in corners, and scenes rotated together with gravity.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -70,7 +70,7 @@ TEST(GravityVector, KnowsItsSizeAndItsParts) {
   EXPECT_FALSE(Gravity(0.5).is_tilted());
 }
 
-// The parabola of a disk that meets nothing, and those after its bounces: each axis for itself.
+// The coordinate of a free disk on its parabola and on those after its bounces; each axis is independent.
 double bouncing(double c, double v, double g, double low, double t) {
   for (;;) {
     const double landing = (v + std::sqrt(v * v + 2.0 * g * (c - low))) / g;
@@ -97,7 +97,7 @@ TEST(GravityVector, AFreeDiskIsOnParabolasAlongBothAxes) {
   }
 }
 
-// On an inclined frame, seen from the frame: a disk that lies on the floor slides along it.
+// An inclined frame, in its own coordinates: a disk on the floor slides along it.
 TEST(GravityVector, ADiskSlidesDownAnInclinedFrame) {
   SceneParts p;
   p.sides = "wall_restitution = 0.0\n";
@@ -109,7 +109,7 @@ TEST(GravityVector, ADiskSlidesDownAnInclinedFrame) {
   EXPECT_NEAR(end.disks.y[0], 0.5, 1e-9);
 }
 
-// With ceilings for floors: up, and to the right.
+// Disks rest on ceilings, too, and on the right, if gravity pulls up or to the right.
 TEST(GravityVector, ADiskRestsOnAnySide) {
   const std::pair<const char*, Side> cases[] = {
       {"[-1, 0]", Side::left}, {"[1, 0]", Side::right}, {"[0, -1]", Side::bottom}, {"[0, 1]", Side::top}};
@@ -133,7 +133,7 @@ TEST(GravityVector, ADiskRestsOnAnySide) {
   }
 }
 
-// Down an inner wall, from rest on it: along it by g's part along it.
+// A disk slides down an inner wall, from rest, with the component of g along it.
 TEST(GravityVector, ADiskSlidesDownAChute) {
   const double length = std::sqrt(16.0 * 16.0 + 8.0 * 8.0);
   const Vec2 along{16.0 / length, -8.0 / length}, off{8.0 / length, 16.0 / length};
@@ -158,7 +158,7 @@ const std::string obstacles =
     "[[disks]]\nfixed = true\ncount = 6\npositions = \"random\"\nradius = { uniform = [0.1, 0.7] }\n"
     "[[walls]]\npoints = [[3.0, 4.0], [8.0, 6.0], [7.0, 11.0]]\n[[walls]]\nfrom = [16.0, 3.0]\nto = [11.0, 15.0]\n";
 
-// Elastic, so that energy is kept, work against gravity along both axes included.
+// Elastic disks: the energy is conserved, including the work against gravity along both axes.
 TEST(GravityVector, ExactKeepsTheEnergyAmongObstacles) {
   for (const char* gravity : {"[-0.4, -0.3]", "[0.5, 0]", "[0.2, 0.6]"}) {
     SceneParts p;
@@ -171,14 +171,14 @@ TEST(GravityVector, ExactKeepsTheEnergyAmongObstacles) {
     const Energy before = energy_of(start.disks, scene.physics.gravity);
     const Energy after = energy_of(end.disks, scene.physics.gravity);
     EXPECT_GT(end.counters.wall_collisions, 500U);
-    EXPECT_GT(std::abs(after.potential - before.potential), 1.0) << "the test needs work";
+    EXPECT_GT(std::abs(after.potential - before.potential), 1.0) << "the test needs work against gravity";
     const double scale = before.kinetic + std::abs(before.potential);
     EXPECT_NEAR(after.total(), before.total(), 1e-10 * scale) << gravity;
     EXPECT_LT(wall_overlap(end.disks, scene.box), 1e-12);
   }
 }
 
-// What the sides bear is the weight, and what momentum changed; to rounding, in every method.
+// The force on the sides is the weight plus the change of momentum, to rounding, in every method.
 TEST(GravityVector, ForcesOnTheWallsBalance) {
   for (const char* method : methods) {
     SceneParts p;
@@ -198,7 +198,7 @@ TEST(GravityVector, ForcesOnTheWallsBalance) {
   }
 }
 
-// A pile in a corner, at rest: left and floor bear the weight, each its part.
+// A pile at rest in a corner: the left side and the floor bear their components of the weight.
 TEST(GravityVector, APileRestsInACorner) {
   SceneParts p;
   p.width = p.height = 12.0;
@@ -224,7 +224,8 @@ TEST(GravityVector, APileRestsInACorner) {
   EXPECT_LT(max_overlap(end.disks, scene.box), 0.02);
 }
 
-// x for y: the box, the disks, what stands in the box, and gravity. Every formula is symmetric, operation by operation.
+// Exchanges x and y of the box, the disks, the obstacles, and gravity. Every formula is symmetric, operation by
+// operation.
 Scene exchanged(Scene s) {
   std::swap(s.box.width, s.box.height);
   const auto swap_sides = [](auto& of_side) {
@@ -292,8 +293,8 @@ TEST(GravityVector, WhatIsTrueDownwardsIsTrueToTheLeftBitForBit) {
   }
 }
 
-// Where sides are periodic along gravity and nothing stands in the way, disks fall for ever: among each other they move
-// as without gravity, with the same collisions and warnings. No contact bears load, however slow.
+// If sides are periodic along gravity and there are no obstacles, disks fall for ever: relative to each other they move
+// as without gravity, with the same collisions and warnings. No contact bears load, however slow it is.
 TEST(GravityVector, IsNotFeltByDisksThatFallForEver) {
   const std::string cooling =
       "[[disks]]\ncount = 100\npositions = \"random\"\nvelocities = { maxwell = 1.0 }\nradius = 0.5\nmass = 1.0\n";
@@ -334,7 +335,7 @@ TEST(GravityVector, IsNotFeltByDisksThatFallForEver) {
   }
 }
 
-// A vector that points down is the number.
+// A vector that points down has the bits of the single number.
 TEST(GravityVector, StraightDownHasTheBitsOfTheNumber) {
   for (const char* method : methods) {
     SceneParts p;
@@ -347,7 +348,7 @@ TEST(GravityVector, StraightDownHasTheBitsOfTheNumber) {
   }
 }
 
-// Side walls that take all speed leave velocities of -0; drifting back, as rollback does, must not make +0 of them.
+// Side walls that absorb all speed leave velocities of -0; drifting back, as rollback does, must not make them +0.
 TEST(GravityVector, KeepsTheSignOfAZero) {
   double x = 1.0, y = 1.0, vx = -0.0, vy = 1.0;
   drift<true>(x, y, vx, vy, -0.5, Gravity(2.0));

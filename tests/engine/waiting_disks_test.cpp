@@ -26,7 +26,7 @@ Source gas_source(double rate, Vec2 low, Vec2 high) {
   return source;
 }
 
-// At a packing fraction of 0.24, a disk finds room at one place in five or so: all come when they are due.
+// At a packing fraction of 0.24 about one place in five has room for a disk: all disks come when they are due.
 TEST(WaitingDisks, HaveManyPlacesToComeTo) {
   Scene scene = test::scene_of(Method::exact, 40.0, 40.0, 0.0, 25.0);
   scene.sources = {gas_source(20.0, {1.0, 1.0}, {39.0, 39.0})};
@@ -35,8 +35,9 @@ TEST(WaitingDisks, HaveManyPlacesToComeTo) {
   EXPECT_EQ(end.counters.waiting, 0U);
 }
 
-// Disks fall from one place, g = 1.6, one a unit of time. The one before has fallen by a diameter after 1.118, so that
-// the place is free 1.25 after it: at 2.25, 3.5, 4.75 and so on, k quarters.
+// Disks fall from one place with g = 1.6, and one is due in each unit of time. The previous disk has fallen by a
+// diameter after 1.118, so the place is free at the next quarter, 1.25 after it came: disks come at 2.25, 3.5, 4.75 and
+// so on.
 TEST(WaitingDisks, ComeWithinAQuarterOfTheTimeBetweenTwoAfterThereIsRoom) {
   Scene scene = test::scene_of(Method::exact, 4.0, 200.0, 0.0, 10.9);
   scene.physics.gravity = Gravity(0.0, 1.6);
@@ -52,8 +53,8 @@ TEST(WaitingDisks, ComeWithinAQuarterOfTheTimeBetweenTwoAfterThereIsRoom) {
   EXPECT_EQ(engine->state().counters.waiting, 2U);
 }
 
-// A disk at rest where the source is: after the first few, each that is due ends one window alone, also where fewer
-// than that are to come.
+// A disk at rest blocks the source: after the first few, each disk that is due ends only one window, also if the limit
+// is smaller than that number.
 TEST(WaitingDisks, EndNoWindowsInBetweenWhereManyWait) {
   for (const Count limit : {Count{5}, Count{2000}}) {
     Scene scene = test::scene_of(Method::exact, 4.0, 4.0, 0.0, 100.0);
@@ -67,11 +68,11 @@ TEST(WaitingDisks, EndNoWindowsInBetweenWhereManyWait) {
   }
 }
 
-// The places at which a source of one disk a unit of time tries one at time t, where no place has room.
+// The places at which a source of one disk per unit of time tries a disk at time t, if no place has room.
 std::set<std::pair<double, double>> places_tried(const Scene& scene, State& state, double t) {
   std::set<std::pair<double, double>> places;
   state.time = t;
-  state.step_begun = false;  // a window has ended then
+  state.step_begun = false;  // as at the end of a window
   emit_at_window_start(scene, state, [&](const Disk& d) { return places.insert({d.x, d.y}), false; });
   return places;
 }
@@ -92,14 +93,14 @@ TEST(WaitingDisks, AreTriedAt32PlacesAndAtOthersAtEachQuarter) {
     all.insert(places.begin(), places.end());
   }
   EXPECT_EQ(all.size(), 5U * 32U);
-  EXPECT_TRUE(places_tried(scene, state, 2.125).empty()) << "no quarter";
+  EXPECT_TRUE(places_tried(scene, state, 2.125).empty()) << "2.125 is no quarter";
 }
 
-// Where other windows end then changes nothing.
+// Windows that end at other times change nothing.
 TEST(WaitingDisks, AreTriedAtQuartersWhileFewerThanEightWait) {
   const Scene scene = of_one_source();
   State state = test::state_of(scene, {});
-  EXPECT_TRUE(places_tried(scene, state, 0.75).empty()) << "none is due";
+  EXPECT_TRUE(places_tried(scene, state, 0.75).empty()) << "no disk is due";
   EXPECT_EQ(places_tried(scene, state, 7.25).size(), 32U);
   EXPECT_EQ(next_cut(scene, state), 7.5);
   EXPECT_EQ(places_tried(scene, state, 8.0).size(), 32U);
@@ -117,7 +118,7 @@ TEST(WaitingDisks, DoNotComeBeforeTheyAreDue) {
   EXPECT_EQ(state.counters.waiting, 0U);
 }
 
-// A run that goes on beyond its end, which lay a rounding behind an emission time or a quarter.
+// A run that is continued beyond its end, where the end was later than an emission time or a quarter by a rounding.
 TEST(WaitingDisks, AreTriedAtTheEndOfARunThatGoesOn) {
   const Scene scene = of_one_source();
   State state = test::state_of(scene, {});
@@ -126,7 +127,7 @@ TEST(WaitingDisks, AreTriedAtTheEndOfARunThatGoesOn) {
   }
 }
 
-// Only half of the region is further than a radius inside the walls.
+// Only half of the region is further inside the walls than a radius.
 TEST(WaitingDisks, AreInsideTheBoxWhereverTheyAreTried) {
   Scene scene = test::scene_of(Method::exact, 20.0, 20.0, 0.0, 100.0);
   scene.sources = {test::source_in({0.0, 0.0}, {1.0, 20.0}, 1.0, 0.5)};

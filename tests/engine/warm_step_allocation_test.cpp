@@ -1,4 +1,4 @@
-// A step allocates nothing once warm: this program counts every operator new, its own and the engine's.
+// A step allocates no memory once the engine is warm: this program counts every operator new, its own and the engine's.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -26,15 +26,15 @@ void* counted(std::size_t bytes, std::size_t alignment) {
 
 }  // namespace
 
-// The other forms end in these. None is inlined: where g++ sees through one of a pair, as with the
-// address sanitizer, it takes free() of what the other returned for a mismatch.
+// The other forms call these. None is inlined: if g++ inlines one of a pair, as with the address sanitizer, it takes
+// free() on the other's memory for a mismatch.
 [[gnu::noinline]] void* operator new(std::size_t bytes) {
   return counted(bytes, alignof(std::max_align_t));
 }
 [[gnu::noinline]] void* operator new(std::size_t bytes, std::align_val_t alignment) {
   return counted(bytes, static_cast<std::size_t>(alignment));
 }
-// std::stable_sort asks for its scratch this way; the address sanitizer has a form of its own of it.
+// std::stable_sort gets its scratch memory this way; the address sanitizer has its own form of it.
 [[gnu::noinline]] void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
   allocations.fetch_add(1, std::memory_order_relaxed);
   return std::malloc(bytes);
@@ -55,9 +55,9 @@ void* counted(std::size_t bytes, std::size_t alignment) {
 namespace carom {
 namespace {
 
-// Allocations of 60 steps after a warm-up in which every list reaches its greatest length: it runs ten times as long,
-// so that a record in the steps that count would be rare, and vectors that grow double. Steps that sort, known by their
-// new storage order, are among those that count, but where disks lie still.
+// The number of allocations in 60 steps after a warm-up in which every list reaches its greatest length. The warm-up is
+// ten times as long, so that new maxima are rare in the steps counted, and growing vectors double in size. The steps
+// counted include some that sort, known by their new order of storage, unless disks lie still.
 long allocations_when_warm(const std::string& text, int threads, int warm_up = 600) {
   const Scene scene = parse_scene(text + "[run]\nmethod = \"pairwise\"\ndt = 0.005\nt_end = 1000.0\n", "warm", "");
   const auto engine = make_parallel_engine(scene, initial_state(scene), {threads, 16});
@@ -102,8 +102,8 @@ TEST_P(WarmStep, BetweenWallsUnderGravityAllocatesNothing) {
             0);
 }
 
-// Disks that fell a tiny distance onto one another: supports, their loads and pushing in every step. They take longer
-// to find their last neighbours, and are sorted seldom, so that the lists of a sort need more steps to be full.
+// Disks that fell a tiny distance onto each other: supports, their loads and pushing in every step. They find their
+// last neighbours later and are sorted less often, so lists need more steps to reach their greatest length.
 TEST_P(LongWarmStep, OfAPileAllocatesNothing) {
   EXPECT_EQ(allocations_when_warm("[box]\nwidth = 40.0\nheight = 30.0\nwall_restitution = 0.5\n[physics]\n"
                                   "gravity = 1.0\nrestitution = 0.5\n[[disks]]\ncount = 1000\n"

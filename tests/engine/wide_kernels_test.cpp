@@ -1,4 +1,5 @@
-// The objects of kernels for a wider instruction set (*_avx2.cpp) bring no function that others may be given.
+// The object files of kernels for a wider instruction set (*_avx2.cpp) contain no function that other files may be
+// linked with.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -7,8 +8,8 @@
 
 namespace {
 
-// An inline function or a template that a compiler does not inline goes into every object that calls it, and the linker
-// keeps any one of them: a machine without AVX2 would be given the one with its instructions.
+// An inline function or a template that a compiler does not inline goes into every object file that calls it, and the
+// linker keeps any one of them: a machine without AVX2 might get the one with AVX2 instructions.
 TEST(WideKernels, LeaveNoInlineFunctionToTheLinker) {
   const std::string objects = CAROM_WIDE_KERNELS;
   if (objects.empty()) GTEST_SKIP() << "without optimisation nothing is inlined; such builds stay where they are made";
