@@ -1,4 +1,4 @@
-// psi6 where the search has few cells to look into, and where distances are equal.
+// psi6 in cases where few cells are left to search, and where distances are equal.
 #include "core/measure/bond_order.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 namespace carom {
 namespace {
 
-// From the six nearest of all other disks, each by its nearest image; of equally far ones, those of the lowest ids.
+// From the six nearest of all other disks, each by its nearest image; among equally distant ones the lowest ids count.
 std::complex<double> order_among_all(const Disks& d, std::size_t i, const Domain& box) {
   std::vector<std::tuple<double, DiskId, double>> all;  // distance^2, id, angle
   for (std::size_t j = 0; j < d.size(); ++j) {
@@ -31,8 +31,8 @@ std::complex<double> order_among_all(const Disks& d, std::size_t i, const Domain
   return psi;
 }
 
-// Boxes of one to a few cells along each side, with walls and periodic: an axis all of whose cells have been looked
-// into is no bound, one of which a cell is left is.
+// Boxes with one or a few cells along each side, with walls and periodic. An axis all of whose cells have been searched
+// must not limit the search; one with a cell left must.
 TEST(BondOrder, InBoxesOfFewCellsIsThatOfAllPairs) {
   test::Draws draws(31);
   for (int k = 0; k < 4000; ++k) {
@@ -50,14 +50,15 @@ TEST(BondOrder, InBoxesOfFewCellsIsThatOfAllPairs) {
       const std::complex<double> expected = order_among_all(d, i, box);
       ASSERT_NEAR(psi[i].x, expected.real(), 1e-9) << "1 x " << box.height << ", " << n << " disks, case " << k;
       ASSERT_NEAR(psi[i].y, expected.imag(), 1e-9);
-      // Mirrored at the diagonal, angles are pi / 2 minus what they were: the complex conjugate times exp(3 pi i).
+      // Reflection in the diagonal makes each angle pi / 2 minus what it was: psi6 becomes the complex conjugate times
+      // exp(3 pi i).
       ASSERT_NEAR(psi_turned[i].x, -expected.real(), 1e-9) << box.height << " x 1, " << n << " disks, case " << k;
       ASSERT_NEAR(psi_turned[i].y, expected.imag(), 1e-9);
     }
   }
 }
 
-// Where nearly all of the box is empty, and what is not is crowded and far apart, across periodic sides or not.
+// Boxes that are nearly empty, with dense clusters far apart, across periodic sides or not.
 TEST(BondOrder, OfClustersFarApartIsThatOfAllPairs) {
   test::Draws draws(32);
   for (int k = 0; k < 40; ++k) {
@@ -77,18 +78,19 @@ TEST(BondOrder, OfClustersFarApartIsThatOfAllPairs) {
   }
 }
 
-// Seven disks and no more: each has all others as neighbours; of six, none are known.
+// With exactly seven disks each has all the others as neighbours; with six psi6 is unknown.
 TEST(BondOrder, OfTheFirstDisksIsUnknownWithoutSixOthers) {
   const Domain box = test::box_of(8.0, 8.0, test::Periodic::both);
   Disks d;
   for (DiskId id = 0; id < 6; ++id) append(d, {1.0 + id, 4.0, 0, 0, 0.1, 1.0, id});
   EXPECT_FALSE(bond_orders_of_first(d, 2, box, 10.0));
-  EXPECT_TRUE(bond_orders_of_first(d, 0, box, 10.0)->empty()) << "of none, all are known";
+  EXPECT_TRUE(bond_orders_of_first(d, 0, box, 10.0)->empty()) << "for no disks all are known";
   append(d, {7.5, 4.0, 0, 0, 0.1, 1.0, 6});
   EXPECT_EQ(bond_orders_of_first(d, 2, box, 10.0)->size(), 2U);
 }
 
-// On a square lattice, whose distances are whole numbers, four of the next disks are equally far and two of them count.
+// On a square lattice, whose distances are integers, four of the next neighbours are equally distant and two of them
+// count.
 TEST(BondOrder, OfEquallyFarDisksTheLowestIdsCount) {
   constexpr int side = 12;
   const Domain box = test::box_of(side, side, test::Periodic::both);
@@ -111,8 +113,8 @@ TEST(BondOrder, OfEquallyFarDisksTheLowestIdsCount) {
   }
 }
 
-// At time 0 images lie straight above each other, as without shear. In a flat box many thousand rows of them are nearer
-// than the sixth neighbour: the nearest image of a disk is looked for among them once, not again in each row.
+// At time 0 images are straight above each other, as without shear. In a flat box many thousand rows of them are closer
+// than the sixth neighbour. The nearest image of a disk must be searched for once, not in each row.
 TEST(BondOrder, InAFlatShearedBoxIsFoundAtOnce) {
   const Domain plain = test::box_of(1e5, 1.0, test::periodic_along(true, true));
   Domain sheared = plain;
@@ -127,8 +129,8 @@ TEST(BondOrder, InAFlatShearedBoxIsFoundAtOnce) {
   }
 }
 
-// Without shear the images of a row are nearer than the sixth neighbour up to 10^11 rows away: they are those of the
-// rows beside the box again, and are not gone through.
+// Without shear images of a row are closer than the sixth neighbour up to 10^11 rows away: they repeat the rows next to
+// the box, and must not be searched.
 TEST(BondOrder, InALongBoxIsFoundAtOnce) {
   for (const bool tall : {false, true}) {
     const Domain box = test::box_of(tall ? 1.0 : 1e12, tall ? 1e12 : 1.0, test::periodic_along(true, true));
@@ -146,7 +148,7 @@ TEST(BondOrder, InALongBoxIsFoundAtOnce) {
   }
 }
 
-// Disks at one place have no direction to each other.
+// Disks at one place have no direction from each other.
 TEST(BondOrder, DisksAtOnePlaceAddNothing) {
   const Domain box = test::box_of(8.0, 8.0);
   Disks d;

@@ -1,4 +1,4 @@
-// Mean square displacement: across periodic sides, however often it is sampled; free flight, Brownian motion, sinks.
+// Mean square displacement: across periodic sides, for any frequency of samples; free flight, Brownian motion, sinks.
 #include "core/measure/displacement.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ Scene periodic_scene(Method method, double dt, double t_end) {
   return scene;
 }
 
-// Disks on rows of their own, which all rise at one speed, so that they never meet.
+// Disks in rows of their own, which all rise at the same speed, so that they never meet.
 std::vector<Disk> rows(std::size_t n, double speed) {
   test::Draws draws(5);
   std::vector<Disk> list;
@@ -59,7 +59,7 @@ Followed follow(Engine& engine, const Scene& scene) {
   return {mean_square_displacement(tally, engine.state().disks, scene.box), tally.doubtful};
 }
 
-// (v t)^2 to rounding, after up to thirty rounds of the box; windows of exact take such disks far at a time.
+// (v t)^2 to rounding, after up to thirty periods; in windows of exact such disks fly far at a time.
 TEST(Displacement, FreeFlightGoesRoundTheBox) {
   for (const Method method : {Method::pairwise, Method::exact}) {
     for (const std::size_t n : {1U, 3U, 50U}) {
@@ -75,7 +75,7 @@ TEST(Displacement, FreeFlightGoesRoundTheBox) {
   }
 }
 
-// So many that speeds are asked for seldom.
+// With so many disks speeds are only rarely looked at.
 TEST(LongDisplacement, ManyDisksAreFollowedToo) {
   const Scene scene = periodic_scene(Method::exact, 0.0, 1.0);
   const std::vector<Disk> list = rows(5000, 10.0);
@@ -85,7 +85,7 @@ TEST(LongDisplacement, ManyDisksAreFollowedToo) {
   EXPECT_EQ(f.doubtful, 0U);
 }
 
-// Falling for ever: g t^2 / 2 down, from rest.
+// Disks fall for ever from rest: by g t^2 / 2.
 TEST(Displacement, FreeFallIsFollowedThoughItBeginsAtRest) {
   Scene scene = periodic_scene(Method::exact, 0.0, 20.0);
   scene.physics.gravity = 1.0;
@@ -95,7 +95,7 @@ TEST(Displacement, FreeFallIsFollowedThoughItBeginsAtRest) {
   EXPECT_EQ(f.doubtful, 0U);
 }
 
-// A step in which disks cross the whole box, with no samples within, gives a warning instead of a wrong number.
+// A step in which disks cross the whole box, without samples in between, gives a warning instead of a wrong number.
 TEST(Displacement, AStepTooLongIsADoubt) {
   Scene scene = periodic_scene(Method::pairwise, 1.0, 10.0);
   std::vector<Disk> list = rows(3, 10.0);
@@ -104,14 +104,14 @@ TEST(Displacement, AStepTooLongIsADoubt) {
   EXPECT_GT(follow(*engine, scene).doubtful, 0U);
 }
 
-// So is one of a whole period in a step, after which a disk stands where it would had it hardly moved.
+// The same for a step of a whole period, after which a disk is where it would be if it had hardly moved.
 TEST(Displacement, AStepOfAPeriodIsADoubt) {
   Scene scene = periodic_scene(Method::pairwise, 1.0, 3.0);
   const auto engine = make_reference_engine(scene, test::state_of(scene, {{3.0, 2.0, 0.0, 4.1, 0.5, 1.0}}));
   EXPECT_GT(follow(*engine, scene).doubtful, 0U);
 }
 
-// And a move that is seen to be longer than a quarter of the period, wherever it goes.
+// And for a displacement between two looks of more than a quarter of the period, in any direction.
 TEST(Displacement, ALookThatComesTooLateIsADoubt) {
   const Domain box = test::box_of(10.0, 10.0, test::Periodic::both);
   for (const double way : {2.0, 4.0, -2.0, -4.0}) {
@@ -122,18 +122,19 @@ TEST(Displacement, ALookThatComesTooLateIsADoubt) {
   }
 }
 
-// A quarter is none, even where the rounding of both ends makes it five parts.
+// A displacement of a quarter of the period is not doubtful, even if the rounding of both ends makes it five parts of
+// 1/16.
 TEST(Displacement, AQuarterOfThePeriodIsNoDoubt) {
   const Domain box = test::box_of(10.0, 10.0, test::Periodic::both);
   const double before = std::nextafter(0.625, 0.0);
-  ASSERT_EQ(before + 2.5, 3.125) << "ends of parts";
+  ASSERT_EQ(before + 2.5, 3.125) << "both are ends of parts";
   DisplacementTally tally;
   begin_displacement(tally, test::disks_of({{before, 3.125}}), box, 0.0);
   look_at(tally, test::disks_of({{before + 2.5, before}}), box, 1.0);
   EXPECT_EQ(tally.doubtful, 0U);
 }
 
-// Rounds from where a disk is met for the first time, up and down; one comes later.
+// Rounds are counted from where a disk is first seen, in both directions; one disk comes later.
 TEST(Displacement, RoundsAreThoseSinceTheFirstLook) {
   const Domain box = test::box_of(10.0, 10.0, test::Periodic::both);
   DisplacementTally tally;
@@ -151,8 +152,8 @@ TEST(Displacement, RoundsAreThoseSinceTheFirstLook) {
   EXPECT_EQ(tally.doubtful, 0U);
 }
 
-// One disk that flies along x, with a window from 0 to 1 at speed 1 and one from 1 to 1.2 at speed 12.5: a floor that
-// moves has kicked it.
+// A disk that flies along x at speed 1 in a window from 0 to 1, and at speed 12.5 in one from 1 to 1.2, as if kicked by
+// a moving floor.
 class KickedDisk : public test::ScriptedEngine {
  public:
   KickedDisk() { state_.disks = test::disks_of({{0.5, 2.0, 1.0, 0.0}}); }
@@ -178,8 +179,8 @@ class KickedDisk : public test::ScriptedEngine {
   PhaseTimes times_;
 };
 
-// The first window is too short a way for a look at its end, the second too long to be taken together with it: the
-// place between the two is known, so there is no doubt.
+// The first window is too short for a look at its end, and the second too long to be combined with it. Since the
+// position between the two is known, there is no doubt.
 TEST(Displacement, TheLastLookMayLieBeforeALongWindow) {
   Scene scene = test::scene_of(Method::exact, 10.0, 10.0, 0.0, 1.2);
   test::set_sides(scene.box, SideKind::periodic, SideKind::periodic);
@@ -189,8 +190,9 @@ TEST(Displacement, TheLastLookMayLieBeforeALongWindow) {
   EXPECT_EQ(f.doubtful, 0U);
 }
 
-// Many disks are not asked for their speed each time: not while none can have come far. That they begin at rest is no
-// reason where gravity or a thermostat sets them going. All move alike or by less than a quarter of the period a step.
+// The speeds of many disks are not looked at in every step, but only when one may have come far. That they start at
+// rest must not prevent this if gravity or a thermostat sets them going. All move in the same way, or by less than a
+// quarter of the period in a step.
 TEST(Displacement, ManyDisksAtRestAreFollowedWhenTheyAreSetGoing) {
   for (const bool falls : {true, false}) {
     Scene scene = periodic_scene(Method::pairwise, 1.0, 40.0);
@@ -198,7 +200,8 @@ TEST(Displacement, ManyDisksAtRestAreFollowedWhenTheyAreSetGoing) {
     scene.box.width = 6.0 * disks;
     scene.box.height = 8.0;
     if (falls) scene.physics.gravity = 0.02;
-    if (!falls) scene.physics.thermostat = {Thermostat::Kind::andersen, 0.01, 0.01, 100.0};  // one kick, at the start
+    if (!falls)
+      scene.physics.thermostat = {Thermostat::Kind::andersen, 0.01, 0.01, 100.0};  // a single kick, at the start
     std::vector<Disk> list;
     for (std::size_t i = 0; i < disks; ++i) list.push_back({6.0 * static_cast<double>(i) + 3.0, 4.0, 0, 0, 1.0, 1.0});
     const auto engine = make_parallel_engine(scene, test::state_of(scene, list), {1});
@@ -221,7 +224,7 @@ TEST(Displacement, ManyDisksAtRestAreFollowedWhenTheyAreSetGoing) {
   }
 }
 
-// Many disks at rest, which all go up at speed 1 after the first step.
+// Many disks at rest that all rise at speed 1 after the first step.
 class FleetSetGoing : public test::ScriptedEngine {
  public:
   explicit FleetSetGoing(std::size_t disks) {
@@ -235,7 +238,7 @@ class FleetSetGoing : public test::ScriptedEngine {
   }
 };
 
-// A disk that goes up by 3 in a step and is at rest from then on.
+// A disk that rises by 3 in a step and is at rest afterwards.
 class StoppedDisk : public test::ScriptedEngine {
  public:
   StoppedDisk() { append(state_.disks, {3.0, 8.0, 0.0, 3.0, 0.1, 1.0, 0}); }
@@ -246,7 +249,7 @@ class StoppedDisk : public test::ScriptedEngine {
   }
 };
 
-// It is as fast as it was when the step began that a disk may have come so far that a look is due.
+// Whether a disk may have come so far that a look is due follows from its speed at the start of the step.
 TEST(Displacement, OfADiskThatHasStoppedTheSpeedBeforeCounts) {
   Scene scene = periodic_scene(Method::pairwise, 1.0, 40.0);
   scene.box.width = scene.box.height = 16.0;
@@ -260,8 +263,8 @@ TEST(Displacement, OfADiskThatHasStoppedTheSpeedBeforeCounts) {
   EXPECT_FALSE(follow_disks(tally, engine, scene, 2.0));
 }
 
-// Nothing that many disks do from their speeds on says that they will move where others are emitted, or speeds drawn,
-// or where they are hit by what moves by itself: they are asked every time.
+// If disks are emitted, if speeds are drawn, or if moving obstacles hit disks, the speeds of many disks do not tell
+// when some will move: they are looked at in every step.
 TEST(Displacement, ManyDisksAreAskedWhereSpeedsComeFromElsewhere) {
   constexpr std::size_t disks = 4200;
   for (const char* why : {"source", "diffusion", "thermostat", "hot side", "moving side", "inner wall"}) {
@@ -281,8 +284,8 @@ TEST(Displacement, ManyDisksAreAskedWhereSpeedsComeFromElsewhere) {
   }
 }
 
-// Looks and speeds are dated by the disks that are looked at, wherever a run stands when it begins with them: from
-// these times on it is counted how far disks may have come.
+// The times of looks and speeds are those of the disks looked at, whenever in a run this begins: the reach of disks is
+// counted from these times on.
 TEST(Displacement, LooksAreOfTheTimesOfTheDisks) {
   const Domain box = test::box_of(6.0, 4.0, test::Periodic::both);
   const Disks disks = test::disks_of(rows(3, 2.0));
@@ -300,7 +303,7 @@ TEST(Displacement, LooksAreOfTheTimesOfTheDisks) {
   EXPECT_EQ(rounds.looked_at, 51.0);
 }
 
-// 4 D t where collisions are rare; the standard error of a mean of n squares of two components is 1 / sqrt(n).
+// 4 D t if collisions are rare; the mean of n squares of two components has the relative standard error 1 / sqrt(n).
 TEST(Displacement, BrownianMotionGivesFourDt) {
   for (const Method method : {Method::pairwise, Method::exact}) {
     Scene scene = periodic_scene(method, 0.01, 4.0);
@@ -321,7 +324,7 @@ TEST(Displacement, OverThoseThatWereThereAndStillAre) {
   DisplacementTally tally;
   Disks disks = test::disks_of({{1.0, 1.0}, {2.0, 2.0}, {3.0, 3.0}});
   begin_displacement(tally, disks, box, 0.0);
-  Disks later;  // 1 is gone, 7 has come, 2 and 0 have moved and changed places
+  Disks later;  // disk 1 is gone, 7 has come, 2 and 0 have moved and changed places in memory
   append(later, {3.0, 5.0, 0.0, 0.0, 0.5, 1.0, 2});
   append(later, {8.0, 8.0, 0.0, 0.0, 0.5, 1.0, 7});
   append(later, {4.0, 1.0, 0.0, 0.0, 0.5, 1.0, 0});

@@ -1,4 +1,4 @@
-// Energy that nothing put in: what counts as put in, what rounding is held against, and where nothing can be said.
+// Energy without a source: what counts as put in, how much rounding is allowed, and when nothing can be said.
 #include "core/measure/energy_gain.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace carom {
 namespace {
 
-// Of a run that began with 10, of which 4 were potential.
+// A run that began with an energy of 10, of which 4 were potential.
 const RunStart start{1, 0.0, {5.0, 4.0, 1.0}, {}};
 
 bool warns(const Scene& scene, const State& state, double energy) {
@@ -22,7 +22,7 @@ Scene closed_box(Method method) {
   return test::scene_of(method, 10.0, 10.0, 0.01, 1.0);
 }
 
-// Whatever has given energy or taken it, by as much the end may differ from the start, and by no more.
+// The final energy may differ by what the sources of energy gave or took, and by no more.
 TEST(EnergyGain, IsWhatIsMoreThanWasPutIn) {
   const std::vector<std::function<double&(Counters&)>> givers{
       [](Counters& c) -> double& { return c.emitted_energy; }, [](Counters& c) -> double& { return c.side_energy[0]; },
@@ -38,13 +38,13 @@ TEST(EnergyGain, IsWhatIsMoreThanWasPutIn) {
         const double moved = 10.0 + (given == 0.0 ? 0.0 : 3.0);
         EXPECT_FALSE(warns(scene, state, 10.0 + given + 0.99 * most * moved)) << k << ", " << given;
         EXPECT_TRUE(warns(scene, state, 10.0 + given + 1.01 * most * moved)) << k << ", " << given;
-        EXPECT_FALSE(warns(scene, state, 1.0)) << "less is no gain";
+        EXPECT_FALSE(warns(scene, state, 1.0)) << "less energy is no gain";
       }
     }
   }
 }
 
-// What one side gave and another took has passed through the disks: its rounding is in what they have.
+// Energy that one side gave and another took has passed through the disks, so its rounding is allowed, too.
 TEST(EnergyGain, IsHeldAgainstAllThatHasPassedThrough) {
   State state;
   state.counters.side_energy[2] = 1e6;
@@ -56,7 +56,7 @@ TEST(EnergyGain, IsHeldAgainstAllThatHasPassedThrough) {
   EXPECT_FALSE(warns(closed_box(Method::exact), state, 10.0 + 1e-3));
 }
 
-// A potential is 0 at the lower left corner: one far below 0 is as inexact as one far above.
+// The potential is 0 at the lower left corner: one far below 0 is as inexact as one far above.
 TEST(EnergyGain, IsHeldAgainstANegativePotentialToo) {
   const RunStart deep{1, 0.0, {5.0, -1e6, 0.0}, {}};
   const auto warns_of = [&](double gain) {
@@ -66,7 +66,8 @@ TEST(EnergyGain, IsHeldAgainstANegativePotentialToo) {
   EXPECT_TRUE(warns_of(1.1e-3));
 }
 
-// Gravity to the right or up makes potentials negative: a disk that has left with one leaves more than there was.
+// With gravity to the right or up potential energies are negative: a disk that leaves may take negative energy with it,
+// which raises that of the others.
 TEST(EnergyGain, IsUnknownWhereDisksMayHaveTakenLessThanNothing) {
   State state;
   for (const Gravity& g : {Gravity(-0.5, 0.0), Gravity(0.0, -0.5), Gravity(0.5, -0.5), Gravity(-0.5, 0.5)}) {
@@ -79,10 +80,10 @@ TEST(EnergyGain, IsUnknownWhereDisksMayHaveTakenLessThanNothing) {
   }
   Scene scene = closed_box(Method::exact);
   scene.physics.gravity = Gravity(0.5, 0.5);
-  EXPECT_TRUE(warns(scene, state, 11.0)) << "what has left had no less than nothing";
+  EXPECT_TRUE(warns(scene, state, 11.0)) << "the disks that left had energies of at least 0";
 }
 
-// Along periodic sides potential energy is anew in each round; across them gravity is as between walls.
+// Along periodic sides the potential energy starts anew in each round; across them gravity acts as between walls.
 TEST(EnergyGain, IsUnknownWhereDisksFallForEver) {
   const State state;
   for (const bool along_x : {true, false}) {
@@ -95,7 +96,7 @@ TEST(EnergyGain, IsUnknownWhereDisksFallForEver) {
   }
   Scene brownian = closed_box(Method::exact);
   brownian.physics.diffusion = 1.0;
-  EXPECT_FALSE(warns(brownian, state, 11.0)) << "Brownian motion keeps no energy";
+  EXPECT_FALSE(warns(brownian, state, 11.0)) << "Brownian motion does not conserve energy";
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// What an equilibrium run measures of itself, against published numbers: contact value of g(r), pressure, Maxwell.
+// The quantities measured in an equilibrium run, compared with published numbers: contact value of g(r), pressure,
+// Maxwell's distribution.
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
@@ -16,7 +17,7 @@
 namespace carom {
 namespace {
 
-// Disks of two masses at packing fraction 0.3, which begin far from Maxwell's speeds.
+// Disks of two masses at packing fraction 0.3, whose speeds are far from Maxwell's at the start.
 constexpr const char* gas = R"(
 [box]
 packing_fraction = 0.3
@@ -43,7 +44,8 @@ what = ["pair_correlation", "speeds", "pressure"]
 pair_correlation = { r_max = 4.0, bins = 200 }
 )";
 
-// Pearson's chi^2 of the histogram against Maxwell, over the bins in which it expects 20 or more, and their number.
+// Pearson's chi^2 of the histogram and Maxwell's distribution, over the bins in which 20 or more are expected, and the
+// number of these bins.
 struct ChiSquare {
   double value = 0.0, bins = 0.0;
 };
@@ -61,13 +63,13 @@ ChiSquare chi_square(const SpeedHistogram& h, const AnalysisPlan& plan) {
   return chi;
 }
 
-// Its distribution has the mean `bins` and the variance 2 bins; five standard deviations more are chance once in 10^6.
+// chi^2 has the mean `bins` and the variance 2 bins; five standard deviations more occur by chance once in 10^6.
 double bound(const ChiSquare& chi) {
   return chi.bins + 5.0 * std::sqrt(2.0 * chi.bins);
 }
 
-// The parabola a + b s + c s^2 that comes nearest to the first `points` values of the curve from `from` on, at s = 0,
-// the place of contact.
+// The parabola a + b s + c s^2 fitted to the first `points` values of the curve from `from` on, evaluated at s = 0, at
+// contact.
 double at_contact(const BinnedCurve& g, std::size_t from, std::size_t points, double contact) {
   const auto first = static_cast<Eigen::Index>(from), count = static_cast<Eigen::Index>(points);
   const Column s = column_of(g.middle).segment(first, count) - contact;
@@ -83,26 +85,26 @@ TEST(EquilibriumAnalysis, ContactValuePressureAndSpeedsAreThoseOfTheory) {
   const BlockRunner run = blocks_on_threads(2);
   take_sample(start, scene, engine->state().disks, 0.0, engine->state(), run);
   const ChiSquare before = chi_square(start.speeds, scene.analysis);
-  EXPECT_GT(before.value, 2.0 * bound(before)) << "else the test shows nothing";
+  EXPECT_GT(before.value, 2.0 * bound(before)) << "the speeds at the start must differ from Maxwell's";
   Disks disks;
   int taken = 0;
   for (double t = 10.0; t < 130.0; t += 0.25, ++taken) {
     while (engine->state().time < t) engine->step();
     engine->disks_at(t, disks);
     take_sample(record, scene, disks, t, engine->state(), run);
-    // Speeds a few collisions apart, so that samples are independent.
+    // Speeds are sampled a few collisions apart, so that samples are independent.
     if (taken % 8 == 0) add_speeds(seldom.speeds, disks, record.series.temperature.back(), scene.analysis.speed_max);
   }
   constexpr double z = 2.06326;  // virial series at 0.3
   const double area = scene.box.width * scene.box.height;
   const double temperature = sample_mean(record.series.temperature).mean;
   EXPECT_NEAR(sample_mean(record.series.pressure).mean * area / (2048.0 * temperature), z, 0.01 * z);
-  // Z = 1 + 2 phi g(2 r) for equal disks. Contact is at 1, the end of bin 49.
+  // Z = 1 + 2 phi g(2 r) for equal disks. Contact is at distance 1, the end of bin 49.
   const BinnedCurve g = pair_correlation_curve(record.pairs, scene.analysis);
   EXPECT_EQ(record.pairs.counts[48], 0U) << "no pair overlaps";
   const double contact = (z - 1.0) / (2.0 * 0.3);
   EXPECT_NEAR(at_contact(g, 50, 15, 1.0), contact, 0.02 * contact);
-  // Far away there is no order left.
+  // At large distances there is no order left.
   double far = 0.0;
   for (std::size_t k = 175; k < 200; ++k) far += g.value[k] / 25.0;
   EXPECT_NEAR(far, 1.0, 0.005);
@@ -111,7 +113,7 @@ TEST(EquilibriumAnalysis, ContactValuePressureAndSpeedsAreThoseOfTheory) {
   EXPECT_LT(after.value, bound(after));
 }
 
-// u / dt is no velocity: a pressure of it would depend on dt. Collisions are counted all the same.
+// u / dt is not a velocity: a pressure computed from it would depend on dt. Collisions are counted nevertheless.
 TEST(EquilibriumAnalysis, BrownianMotionHasNoPressure) {
   Scene scene = test::scene_of(Method::pairwise, 10.0, 10.0, 0.01, 1.0);
   scene.physics.diffusion = 1.0;

@@ -1,4 +1,4 @@
-// When disks are looked at on their way round a periodic box: speeds that come and go between two looks.
+// The times at which disks are looked at on their way around a periodic box, if speeds change between two looks.
 #include "core/measure/follow_disks.hpp"
 
 #include <gmock/gmock.h>
@@ -22,8 +22,8 @@ namespace {
 
 using ::testing::EndsWith;
 
-// A hot floor sends a slow disk up, often round the box, and a cold ceiling takes its speed away: in windows that are
-// as long as such slow disks ask for.
+// A hot floor sends a slow disk up, often around the box, and a cold ceiling takes its speed away, within windows whose
+// length suits slow disks.
 Scene between_hot_and_cold() {
   Scene scene = test::scene_of(Method::exact, 3.0, 20.0, 0.0, 400.0);
   test::set_sides(scene.box, SideKind::periodic, SideKind::wall);
@@ -39,7 +39,7 @@ struct TwoTallies {
   DisplacementTally followed, often;
 };
 
-// The displacement by looks where they are due, and by one in each thousandth of a unit of time.
+// The displacement with looks when they are due, and with a look in each thousandth of a unit of time.
 TwoTallies follow_twice(Engine& engine, const Scene& scene) {
   TwoTallies tallies;
   for (DisplacementTally* t : {&tallies.followed, &tallies.often}) {
@@ -60,7 +60,7 @@ TwoTallies follow_twice(Engine& engine, const Scene& scene) {
   return tallies;
 }
 
-// Mean of (x - x_0)^2 + (y - y_0)^2 with x = place + width rounds, in which no round may be lost.
+// The mean of (x - x_0)^2 + (y - y_0)^2 with x = place + width * rounds, in which no round may be missed.
 TEST(FollowDisks, SpeedsThatADiskHasOnlyWithinAWindowCount) {
   const Scene scene = between_hot_and_cold();
   const auto expect_followed = [&](std::unique_ptr<Engine> engine, const char* which) {
@@ -68,8 +68,8 @@ TEST(FollowDisks, SpeedsThatADiskHasOnlyWithinAWindowCount) {
     const Disks& disks = engine->state().disks;
     const double often = mean_square_displacement(tallies.often, disks, scene.box).value;
     EXPECT_EQ(mean_square_displacement(tallies.followed, disks, scene.box).value, often) << which;
-    EXPECT_GT(often, 5.0 * 5.0 * 9.0) << "more than five rounds";
-    EXPECT_LT(engine->progress().counters.steps, 40U) << "long windows";
+    EXPECT_GT(often, 5.0 * 5.0 * 9.0) << "the disk must go more than five times around the box";
+    EXPECT_LT(engine->progress().counters.steps, 40U) << "windows must be long";
     EXPECT_EQ(tallies.followed.doubtful, 0U) << which;
     EXPECT_EQ(tallies.often.doubtful, 0U) << which;
   };
@@ -78,7 +78,7 @@ TEST(FollowDisks, SpeedsThatADiskHasOnlyWithinAWindowCount) {
   expect_followed(make_parallel_engine(scene, two_slow_disks(scene), {2}), "two threads");
 }
 
-// Both engines tell the same largest speed; that of a window is no less than those at its ends.
+// Both engines give the same largest speed; that of a window is at least those at its ends.
 TEST(FollowDisks, TheLargestSpeedWithinAWindowIsThatOfItsPaths) {
   const Scene scene = between_hot_and_cold();
   const auto reference = make_reference_engine(scene, two_slow_disks(scene));
@@ -95,7 +95,7 @@ TEST(FollowDisks, TheLargestSpeedWithinAWindowIsThatOfItsPaths) {
   EXPECT_GT(most, at_ends);
 }
 
-// Also where threads have parts of the box, with disks of others beside them.
+// The same if threads have parts of the box, with ghosts from other parts.
 TEST(LongFollowDisks, TheLargestSpeedWithinAWindowIsThatOfAllParts) {
   Scene scene = test::scene_of(Method::exact, 120.0, 120.0, 0.0, 3.0);
   test::set_sides(scene.box, SideKind::periodic, SideKind::periodic);
@@ -112,7 +112,7 @@ TEST(LongFollowDisks, TheLargestSpeedWithinAWindowIsThatOfAllParts) {
   }
 }
 
-// A disk that creeps along x for a hundred steps, until something hits it. Its engine knows no time within a step.
+// A disk that creeps along x for a hundred steps, until something hits it. Its engine knows no times within a step.
 class CreepingDisk : public test::ScriptedEngine {
  public:
   CreepingDisk() { state_.disks = test::disks_of({{0.5, 2.0, 0.01, 0.0}}); }
@@ -124,7 +124,7 @@ class CreepingDisk : public test::ScriptedEngine {
   }
 };
 
-// It was not at its new speed since the last look: 100 at 0.01, then 20 at 1.
+// The disk has not had its new speed since the last look: it moves for 100 at 0.01, then for 20 at 1.
 TEST(FollowDisks, ADiskThatIsHitAfterLongRestIsNoDoubt) {
   Scene scene = test::scene_of(Method::pairwise, 10.0, 10.0, 1.0, 120.0);
   test::set_sides(scene.box, SideKind::periodic, SideKind::periodic);
@@ -141,7 +141,7 @@ TEST(FollowDisks, ADiskThatIsHitAfterLongRestIsNoDoubt) {
   EXPECT_EQ(tally.doubtful, 0U);
 }
 
-// An exact run has no dt to make smaller.
+// In an exact run the advice cannot be a smaller dt.
 TEST(FollowDisks, ADoubtSaysWhatHelps) {
   Scene scene = test::scene_of(Method::exact, 10.0, 10.0, 0.0, 1.0);
   const auto text = [&] { return doubt_text({}, scene, "trajectory", "its counts", "output.every"); };

@@ -1,4 +1,4 @@
-// The motion of a group by hand: of disks of different mass, in one piece and in several.
+// The motion of a group, compared with numbers by hand: disks of different masses, in one piece and in several.
 #include "core/measure/group_motion.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,8 @@
 namespace carom {
 namespace {
 
-// Masses of 1 and 3 with velocities (5, 2) and (1, -2): the mean is (2, -1), and they are (3, 3) and (-1, -1) from it.
+// Masses of 1 and 3 have velocities (5, 2) and (1, -2): the mean is (2, -1), and relative to it they are (3, 3) and
+// (-1, -1).
 TEST(GroupMotion, IsTheMeanVelocityAndTheTemperatureAroundIt) {
   const Disks disks = test::disks_of({{1, 2, 5, 2, 0.5, 1}, {3, 3, 100, 100, 0.5, 7}, {5, 6, 1, -2, 0.5, 3}});
   const std::vector<std::size_t> members{0, 2}, first{0}, second{2};

@@ -1,4 +1,4 @@
-// Late collisions that are too few to be told of on the way: at its end a run says whether they are more than their
+// Late collisions that are too few for a warning during the run: at its end they are reported if they exceed their
 // share.
 #include "core/step/late_collisions.hpp"
 
@@ -30,8 +30,8 @@ Scene disks_on_a_line(const std::vector<Override>& changes) {
   return load_scene(CAROM_SOURCE_DIR "/scenes/stability/f16_collapse_three.toml", changes);
 }
 
-// Six disks on a line run into each other, with a long step: most of 15 collisions are late, and there is three times
-// the energy that there should be. Too few for a warning on the way, but not at the end.
+// Six disks in a row collide with each other in long steps: most of 15 collisions are late, and the energy is three
+// times what it should be. They are too few for a warning during the run, but not at the end.
 TEST(LateCollisions, FewLateCollisionsAreToldOfAtTheEnd) {
   const auto row = [](const char* method, const char* dt) {
     return disks_on_a_line({{"physics.restitution", "0.3"},
@@ -53,8 +53,8 @@ TEST(LateCollisions, FewLateCollisionsAreToldOfAtTheEnd) {
       ElementsAre(AllOf(HasSubstr("by time 3.6 "), HasSubstr(" collisions were seen a step late: dt = 0.2 is"))));
 }
 
-// Two disks that touch at the start, but for rounding, and hardly move, are said to meet late: no reason to call dt too
-// long.
+// Two disks that touch at the start, up to rounding, and hardly move, count as one late collision: this does not show
+// that dt is too long.
 TEST(LateCollisions, ASingleLateCollisionIsNotToldOf) {
   const Scene scene = disks_on_a_line({{"disks.0.count", "2"},
                                        {"disks.0.positions", "[[3, 5], [4.9999999999999991, 5]]"},
@@ -67,7 +67,7 @@ TEST(LateCollisions, ASingleLateCollisionIsNotToldOf) {
   EXPECT_THAT(few_inaccurate_warnings(scene, engine->state()), IsEmpty());
 }
 
-// A disk that crosses a slot in less than a step loses two bounces for each that is late: here 16 of 27 are counted.
+// A disk that crosses a slot in less than a step misses two bounces for each late one: here 16 of 27 are counted.
 TEST(LateCollisions, FewLateBouncesAreToldOfAtTheEnd) {
   const auto slot = [](const char* dt) {
     return test::scene_from(R"(
@@ -101,12 +101,12 @@ t_end = 0.8
   }
 }
 
-// From two late ones on, where they are more than their share.
+// Two late collisions are enough if they exceed their share.
 TEST(LateCollisions, TwoAreToldOf) {
   const Scene scene = disks_on_a_line({{"run.method", "pairwise"}});
   State state = initial_state(scene);
   state.counters.collisions = 8;
-  state.counters.wall_collisions = 1000;  // which are told of apart
+  state.counters.wall_collisions = 1000;  // late bounces are reported separately
   state.validity.inaccurate = 2;
   EXPECT_THAT(few_inaccurate_warnings(scene, state), ElementsAre(HasSubstr("2 of 8 collisions were seen")));
   state.validity.inaccurate = 1;

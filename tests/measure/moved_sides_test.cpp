@@ -1,4 +1,4 @@
-// What is measured in a box into which a side has moved is of the room that is left.
+// Measurements in a box with moved sides refer to the room that is left.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace carom {
 namespace {
 
-// 20 x 10, of which a piston from the left and a floor take 2 along x and 1 along y in each unit of time.
+// A box of 20 x 10, from which a piston at the left takes 2 along x, and a floor 1 along y, in each unit of time.
 Scene pressed_box() {
   return parse_scene(
       "[box]\nwidth = 20.0\nheight = 10.0\nleft = { motion = { velocity = [2.0, 0.0] } }\n"
@@ -24,7 +24,7 @@ Scene pressed_box() {
 
 TEST(MovedSides, PressureOfASampleIsThatOfTheRoomLeft) {
   const Scene scene = pressed_box();
-  const Disks disks = test::disks_of({{18.0, 8.0, 3.0, 0.0, 0.5, 2.0}});  // 9 of kinetic energy
+  const Disks disks = test::disks_of({{18.0, 8.0, 3.0, 0.0, 0.5, 2.0}});  // kinetic energy 9
   AnalysisRecord record = empty_record(scene);
   State now;
   take_sample(record, scene, disks, 0.0, now, run_in_order);
@@ -36,14 +36,14 @@ TEST(MovedSides, PressureOfASampleIsThatOfTheRoomLeft) {
   EXPECT_DOUBLE_EQ(record.series.pressure[1], (9.0 + 24.0 / 8.0) / (12.0 * 6.0));
 }
 
-// Every side takes room away.
+// Each of the four sides takes away room.
 TEST(MovedSides, PressureIsThatOfTheRoomBetweenAllFour) {
   Domain box{20.0, 10.0};
   box.places = {SidePlace{1.0, 0.0, 0.0}, SidePlace{3.0, 0.0, 0.0}, SidePlace{2.0, 0.0, 0.0}, SidePlace{4.0, 0.0, 0.0}};
   EXPECT_DOUBLE_EQ(pressure({32.0}, 64.0, 2.0, box), (32.0 + 16.0) / (16.0 * 4.0));
 }
 
-// Against the sum of a thousand places between the two times; Simpson's rule is no better where a piece ends.
+// Compared with the mean over a thousand times in between; Simpson's rule is less exact at the end of a piece.
 TEST(MovedSides, MeanPlaceIsThatOfTheMotion) {
   const SideMotion steady{SideMotion::Kind::steady, 2.0, 0.3};
   const SideMotion parabolas{SideMotion::Kind::parabolas, 2.0, 0.0, -0.7, 0.8};

@@ -1,4 +1,4 @@
-// Structure factor, bond order, velocity autocorrelation and profiles of motion, against cases that are known.
+// Structure factor, bond order, velocity autocorrelation and profiles of motion, compared with known cases.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr Stream stream = Stream::position;
 
-// The same disks stored the other way round.
+// The same disks stored in reverse order.
 Disks turned(const Disks& d) {
   Disks other;
   for (std::size_t i = d.size(); i-- > 0;) append(other, disk_at(d, i));
@@ -37,7 +37,7 @@ Disks ideal_gas(std::size_t n, const Domain& box, std::uint64_t seed) {
   return d;
 }
 
-// A perfect triangular lattice of spacing 1, columns x rows, with its box.
+// A perfect triangular lattice of spacing 1 with these numbers of columns and rows, and its box.
 Disks triangles(int columns, int rows, Domain& box) {
   const double h = std::sqrt(0.75);
   box = test::box_of(columns, rows * h, test::Periodic::both);
@@ -49,7 +49,8 @@ Disks triangles(int columns, int rows, Domain& box) {
   return d;
 }
 
-// |rho_k|^2 / N of an ideal gas is exponential with mean 1: the mean of `waves` has the error 1 / sqrt(waves).
+// |rho_k|^2 / N of an ideal gas is exponentially distributed with mean 1: the mean over `waves` has the error 1 /
+// sqrt(waves).
 TEST(StructureFactor, OfAnIdealGasIsOne) {
   const Domain box = test::box_of(30.0, 20.0, test::Periodic::both);
   StructureFactor s{std::vector<double>(100, 0.0), std::vector<double>(100, 0.0), 0};
@@ -62,7 +63,8 @@ TEST(StructureFactor, OfAnIdealGasIsOne) {
   EXPECT_NEAR(mean, 1.0, 4.0 / std::sqrt(40.0 * 200.0));
 }
 
-// Rows lie sqrt(3)/2 apart, columns 1/2: Bragg peaks of height N at 2 pi over those, and nothing between them.
+// Rows are sqrt(3)/2 apart and columns 1/2: there are Bragg peaks of height N at 2 pi over these distances, and nothing
+// in between.
 TEST(StructureFactor, OfALatticeHasBraggPeaks) {
   Domain box;
   const Disks d = triangles(12, 14, box);
@@ -93,7 +95,7 @@ TEST(BondOrder, OfAHexagonalLatticeIsOne) {
   }
 }
 
-// Two crystals, one turned by 30 degrees: order around each disk, none in common.
+// Two crystals, one rotated by 30 degrees: there is order around each disk, but none in common.
 TEST(BondOrder, TurnedCrystalsHaveNoOrderInCommon) {
   const double h = std::sqrt(0.75);
   Disks d;
@@ -107,7 +109,7 @@ TEST(BondOrder, TurnedCrystalsHaveNoOrderInCommon) {
     }
   }
   const BondOrder order = bond_order(d, test::box_of(200.0, 100.0));
-  EXPECT_GT(order.local, 0.9) << "all but those at the edges";
+  EXPECT_GT(order.local, 0.9) << "all disks except those at the edges";
   EXPECT_LT(order.global, 0.05);
 }
 
@@ -115,8 +117,7 @@ BondPairs pairs_of(const Disks& d, const Domain& box, const DistanceBins& bins) 
   return bond_pairs(with_orders(d, bond_orders(d, box)), box, bins);
 }
 
-// On a hexagonal lattice every psi6 is the same: g6 is 1 wherever there are pairs, which are at distances of
-// neighbours.
+// On a hexagonal lattice all psi6 are equal, so g6 is 1 wherever there are pairs, that is at distances of the lattice.
 TEST(BondCorrelation, OfAHexagonalLatticeIsOne) {
   Domain box;
   const Disks d = triangles(12, 14, box);
@@ -124,13 +125,14 @@ TEST(BondCorrelation, OfAHexagonalLatticeIsOne) {
   BondCorrelation sums{std::vector<double>(50, 0.0), std::vector<Count>(50, 0), 0};
   add_bond_pairs(sums, pairs_of(d, box, bins));
   EXPECT_EQ(sums.samples, 1U);
-  EXPECT_EQ(sums.pairs[10] + sums.pairs[9], 168U * 6U) << "at the lattice spacing, give or take rounding";
+  EXPECT_EQ(sums.pairs[10] + sums.pairs[9], 168U * 6U)
+      << "pairs at the lattice spacing, which rounding may put into either bin";
   for (std::size_t k = 0; k < 50; ++k) {
     EXPECT_NEAR(sums.product[k], static_cast<double>(sums.pairs[k]), 1e-9) << k;
   }
 }
 
-// Against all pairs, with walls, whose neighbourhood is left out; and in any order of storage.
+// Compared with all pairs, with walls, whose neighbourhood is left out; and for any order of storage.
 TEST(BondCorrelation, OfAGasIsThatOfAllPairs) {
   const Domain box = test::box_of(30.0, 20.0, test::Periodic::x);
   const Disks d = ideal_gas(300, box, 3);
@@ -152,11 +154,11 @@ TEST(BondCorrelation, OfAGasIsThatOfAllPairs) {
   add_bond_pairs(sums, pairs_of(d, box, bins));
   add_bond_pairs(other, pairs_of(turned(d), box, bins));
   EXPECT_EQ(sums.pairs, pairs);
-  EXPECT_EQ(sums.product, other.product) << "storage does not matter";
+  EXPECT_EQ(sums.product, other.product) << "the order of storage must not matter";
   for (std::size_t k = 0; k < n; ++k) EXPECT_NEAR(sums.product[k], product[k], 1e-9) << k;
 }
 
-// Enough disks for several blocks of each.
+// There are enough disks for several blocks.
 TEST(BondCorrelation, HasTheSameBitsOnAnyThreads) {
   const Domain box = test::box_of(130.0, 90.0, test::Periodic::x);
   const Disks d = ideal_gas(10'000, box, 5);
@@ -169,14 +171,14 @@ TEST(BondCorrelation, HasTheSameBitsOnAnyThreads) {
     const std::vector<Vec2> shared = bond_orders(d, box, run);
     ASSERT_EQ(shared.size(), psi.size());
     for (std::size_t i = 0; i < psi.size(); ++i) EXPECT_TRUE(shared[i].x == psi[i].x && shared[i].y == psi[i].y) << i;
-    EXPECT_FALSE(bond_orders_of_first(d, d.size(), box, 0.5, run)) << "sixth neighbours are further";
+    EXPECT_FALSE(bond_orders_of_first(d, d.size(), box, 0.5, run)) << "sixth neighbours are further away";
     const BondPairs found = bond_pairs(with_orders(d, shared), box, bins, run);
     EXPECT_EQ(found.counts, pairs.counts);
     for (std::size_t k = 0; k < bins.bins; ++k) EXPECT_EQ(value_of(found.product[k]), value_of(pairs.product[k])) << k;
   }
 }
 
-// A crystal keeps its directions, whatever way it moves.
+// A crystal keeps its directions however it moves.
 TEST(BondMemory, OfACrystalIsOne) {
   Domain box;
   Disks d = triangles(12, 14, box);
@@ -190,7 +192,7 @@ TEST(BondMemory, OfACrystalIsOne) {
   EXPECT_NEAR(bond_autocorrelation(memory, d, box), 1.0, 1e-12);
 }
 
-// Turned by a, each psi6 is exp(6 i a) times what it was.
+// A rotation by a multiplies each psi6 by exp(6 i a).
 TEST(BondMemory, FallsByTheAngleOfATurn) {
   const Domain box = test::box_of(100.0, 100.0);
   const Disks start = ideal_gas(300, test::box_of(40.0, 40.0), 9);
@@ -210,8 +212,9 @@ TEST(BondMemory, FallsByTheAngleOfATurn) {
   }
 }
 
-// In an ideal gas neighbours fly apart: near 1 while disks have hardly moved, and none is left when they have changed
-// places. The sum of N products of independent psi6 scatters by sqrt(N / 2) <|psi6|^2>; neighbours share some of it.
+// In an ideal gas neighbours separate: the correlation is near 1 while disks have hardly moved, and vanishes when they
+// have new neighbours. The sum of N products of independent psi6 scatters by sqrt(N / 2) <|psi6|^2>; neighbours share a
+// part of it.
 TEST(BondMemory, OfAnIdealGasIsForgotten) {
   constexpr std::size_t n = 20'000;
   const Domain box = test::box_of(200.0, 100.0, test::Periodic::both);
@@ -237,7 +240,7 @@ TEST(BondMemory, OfAnIdealGasIsForgotten) {
   EXPECT_NEAR(last, 0.0, 6.0 / std::sqrt(2.0 * n));
 }
 
-// By hand: disks that have gone are left out on both sides, and one that came later is not among them.
+// By hand: disks that are gone are left out of both states, and a disk that came later is not included.
 TEST(BondMemory, IsOfTheDisksThatAreStillThere) {
   const Domain box = test::box_of(30.0, 20.0);
   Disks first = ideal_gas(40, box, 5), later;
@@ -259,8 +262,8 @@ TEST(BondMemory, IsOfTheDisksThatAreStillThere) {
   EXPECT_TRUE(std::isnan(bond_autocorrelation(nothing, later, box)));
 }
 
-// Against all pairs; and six independent angles would have a mean |psi6| of sqrt(pi) / 2 / sqrt(6) = 0.36, a gas a
-// little more, and one on a line 1. The search ends in boxes of 3e5 columns and one row, too.
+// Compared with all pairs. Six independent angles would have a mean |psi6| of sqrt(pi) / 2 / sqrt(6) = 0.36, a gas has
+// a little more, and disks in a row have 1. The search must end, too, in boxes with 3e5 columns and one row.
 TEST(BondOrder, OfAGasIsThatOfAllPairs) {
   for (const Domain& box :
        {test::box_of(30.0, 20.0), test::box_of(30.0, 20.0, test::Periodic::x),
@@ -286,7 +289,7 @@ TEST(BondOrder, OfAGasIsThatOfAllPairs) {
     const BondOrder order = bond_order(d, box);
     EXPECT_NEAR(order.local, local, 1e-10);
     EXPECT_NEAR(order.global, std::hypot(x, y), 1e-10);
-    EXPECT_EQ(bond_order(turned(d), box).local, order.local) << "storage does not matter";
+    EXPECT_EQ(bond_order(turned(d), box).local, order.local) << "the order of storage must not matter";
     const bool line = box.width * box.height > 1e9;
     EXPECT_GT(order.local, line ? 0.999 : 0.3);
     EXPECT_LT(order.local, line ? 1.001 : 0.5);
@@ -310,7 +313,7 @@ TEST(VelocityMemory, FreeFlightForgetsNothingAndAWallTurnsItRound) {
   EXPECT_NEAR(velocity_autocorrelation(memory, d), mean, 1e-12);
   EXPECT_EQ(velocity_autocorrelation(memory, turned(d)), velocity_autocorrelation(memory, d));
   append(d, {1, 1, 1e6, 1e6, 0.1, 1.0, 100});
-  EXPECT_NEAR(velocity_autocorrelation(memory, d), mean, 1e-12) << "one that came later is not among them";
+  EXPECT_NEAR(velocity_autocorrelation(memory, d), mean, 1e-12) << "a disk that came later is not included";
   for (std::size_t i = 0; i < 100; ++i) {
     d.vx[i] = -d.vx[i];
     d.vy[i] = -d.vy[i];
@@ -319,8 +322,8 @@ TEST(VelocityMemory, FreeFlightForgetsNothingAndAWallTurnsItRound) {
   EXPECT_TRUE(std::isnan(velocity_autocorrelation(memory, Disks{})));
 }
 
-// A shear flow vx = 0.2 y at temperature 1, masses of 1 and 4: the temperature leaves the flow out, all but what it
-// varies by within a slab.
+// A shear flow vx = 0.2 y at temperature 1, with masses of 1 and 4: the temperature excludes the flow, except for its
+// variation within a slab.
 TEST(MotionProfile, TellsFlowAndTemperatureApart) {
   const Domain box = test::box_of(30.0, 20.0);
   MotionProfile profile = empty_profile(10);
@@ -338,7 +341,7 @@ TEST(MotionProfile, TellsFlowAndTemperatureApart) {
   for (std::size_t k = 0; k < 10; ++k) {
     const SlabMotion motion = motion_of_slab(profile, k);
     const double n = static_cast<double>(profile.disks[k]);
-    const double within = 0.04 * 4.0 / 12.0 * 2.5 / 2.0;  // mean mass times the variance of 0.2 y in a slab, halved
+    const double within = 0.04 * 4.0 / 12.0 * 2.5 / 2.0;  // mean mass times the variance of 0.2 y within a slab, halved
     EXPECT_NEAR(motion.velocity.x, 0.2 * (2.0 * static_cast<double>(k) + 1.0), 5.0 / std::sqrt(n));
     EXPECT_NEAR(motion.velocity.y, 0.0, 5.0 / std::sqrt(n));
     EXPECT_NEAR(motion.temperature, 1.0 + within, 5.0 / std::sqrt(n));
@@ -350,7 +353,8 @@ TEST(MotionProfile, TellsFlowAndTemperatureApart) {
   EXPECT_TRUE(std::isnan(motion_of_slab(empty_profile(1), 0).temperature));
 }
 
-// Velocities of 1 in one sample and of 3 in the next: 1 away from their mean both times, with mass 2 an energy of 1.
+// The velocity is 1 in one sample and 3 in the next: both differ from their mean by 1, which for mass 2 is an energy of
+// 1.
 TEST(MotionProfile, SamplesOfDifferentVelocityAreHotTogether) {
   MotionProfile profile = empty_profile(1);
   const Domain box = test::box_of(4.0, 4.0);
@@ -358,11 +362,11 @@ TEST(MotionProfile, SamplesOfDifferentVelocityAreHotTogether) {
   const SlabMotion motion = motion_of_slab(profile, 0);
   EXPECT_DOUBLE_EQ(motion.velocity.x, 2.0);
   EXPECT_DOUBLE_EQ(motion.velocity.y, -2.0);
-  EXPECT_DOUBLE_EQ(motion.temperature, 2.0) << "two components";
+  EXPECT_DOUBLE_EQ(motion.temperature, 2.0) << "divided by two components";
 }
 
-// Cold disks in a fast flow, whose energy has no digits left for theirs: the temperature is that of the disks alone,
-// over many samples too, and 0 where all move alike.
+// Cold disks in a fast flow, whose energy leaves no digits for theirs: the temperature is still that of the disks, also
+// over many samples, and 0 if all move alike.
 TEST(MotionProfile, AColdFlowHasItsTemperature) {
   test::Draws draws(8);
   const Domain box = test::box_of(10.0, 10.0, test::Periodic::both);

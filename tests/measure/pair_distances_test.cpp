@@ -1,4 +1,4 @@
-// Pairs by distance: the grid against all pairs, threads against none, and g = 1 where nothing is correlated.
+// Pairs by distance: the grid compared with all pairs, several threads with one, and g = 1 without correlations.
 #include "core/measure/pair_distances.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ bool far_from_walls(const Disks& d, std::size_t i, const Domain& box, double mar
   return x && y;
 }
 
-// Every centre asks every other disk.
+// Each centre is compared with every other disk.
 PairCounts all_pairs(const Disks& d, const Domain& box, const DistanceBins& bins) {
   PairCounts found{0, std::vector<Count>(bins.bins, 0)};
   for (std::size_t i = 0; i < d.size(); ++i) {
@@ -41,7 +41,7 @@ struct Case {
   SideKind left_right, bottom_top;
   double r_max;
 };
-// Square, thin, so narrow that a side has one cell; walls and periodic sides.
+// Square and thin boxes, some with a single cell along a side; walls and periodic sides.
 constexpr SideKind wall = SideKind::wall, around = SideKind::periodic;
 const std::vector<Case> cases{{20.0, 20.0, around, around, 3.0}, {20.0, 20.0, wall, wall, 3.0},
                               {50.0, 7.0, around, around, 3.5},  {50.0, 7.0, around, wall, 2.0},
@@ -67,7 +67,7 @@ TEST(PairDistances, CountsAreThoseOfAllPairsOnAnyNumberOfThreads) {
   }
 }
 
-// So few that a row has one cell, where disks stand in the order in which they are stored.
+// So few disks that a row has one cell, with disks in the order of storage.
 TEST(PairDistances, CountsOfVeryFewDisksAreThoseOfAllPairs) {
   test::Draws draws(15);
   for (const Case& c : cases) {
@@ -92,14 +92,14 @@ TEST(PairDistances, TwoDisksOfOneCellMeetRoundThePeriodicSide) {
   }
 }
 
-// Of two disks a little less than r_max apart one above the other, the upper one a last bit below the edge of a row: a
-// division may round it into the row above.
+// Two disks are a little less than r_max apart, one above the other, the upper one by the last bit below the edge of a
+// row: a division may round it into the row above.
 TEST(PairDistances, NoPairIsLostAtTheEdgeOfARow) {
   test::Draws draws(17);
   int rounded_up = 0;
   for (int k = 0; k < 60; ++k) {
     const Domain box = test::box_of(100.0, draws.in(9.0, 11.0));
-    Disks others;  // further apart, so that there are rows
+    Disks others;  // further away, so that there are rows
     for (DiskId id = 0; id < 160; ++id) {
       append(others, {4.0 + 2.3 * (id % 40), box.height * (id / 40 + 0.5) / 4.0, 0, 0, 0.1, 1.0, id});
     }
@@ -115,10 +115,10 @@ TEST(PairDistances, NoPairIsLostAtTheEdgeOfARow) {
       ASSERT_EQ(count_pairs(disks, box, bins).counts, std::vector<Count>{2}) << box.height << ", row " << row;
     }
   }
-  EXPECT_GT(rounded_up, 20) << "else the test shows nothing";
+  EXPECT_GT(rounded_up, 20) << "too few rows were rounded up, so this tests nothing";
 }
 
-// The images above are displaced; from two rows, which are one, to ten.
+// The images above are displaced; there are from two rows, which count as one, to ten.
 TEST(PairDistances, CountsInAShearedBoxAreThoseOfAllPairs) {
   test::Draws draws(16);
   for (int k = 0; k < 60; ++k) {
@@ -132,7 +132,7 @@ TEST(PairDistances, CountsInAShearedBoxAreThoseOfAllPairs) {
   }
 }
 
-// Points strewn at random: g = 1 in every bin, within four standard errors of the number of pairs.
+// Random points: g = 1 in every bin, within four standard errors of the number of pairs.
 TEST(PairDistances, NothingCorrelatedGivesOne) {
   test::Draws draws(12);
   for (const Case& c : cases) {
@@ -149,15 +149,14 @@ TEST(PairDistances, NothingCorrelatedGivesOne) {
     for (std::size_t k = 0; k < 12; ++k) {
       const auto pairs = static_cast<double>(record.pairs.counts[k]);
       ASSERT_GT(pairs, 100.0);
-      // Each pair is counted twice where both are centres.
+      // A pair of two centres is counted twice.
       const double error = std::sqrt(2.0 / pairs);
       EXPECT_NEAR(g.value[k], 1.0, 4.0 * error) << c.width << " x " << c.height << ", bin " << k;
     }
   }
 }
 
-// Points strewn at random between sides that move: there, too, g = 1, at any time, and no centre is nearer to a side
-// than the margin.
+// Random points between moving sides: g = 1 at any time, and no centre is closer to a side than the margin.
 TEST(PairDistances, MarginsGoWithSidesThatMove) {
   test::Draws draws(14);
   Scene scene;
@@ -181,7 +180,7 @@ TEST(PairDistances, MarginsGoWithSidesThatMove) {
   }
 }
 
-// g(r) of three groups: the pairs of each with each are those that a search over all finds, whatever else is there.
+// g(r) of three groups: the pairs of each two groups are those found by a search over all disks.
 TEST(PairDistances, GroupsHavePairsOfTheirOwn) {
   test::Draws draws(13);
   Scene scene;
@@ -213,7 +212,7 @@ TEST(PairDistances, GroupsHavePairsOfTheirOwn) {
           const bool pair = (one.ids.holds(disks.id[i]) && other.ids.holds(disks.id[j])) ||
                             (other.ids.holds(disks.id[i]) && one.ids.holds(disks.id[j]));
           const double r = std::sqrt(nearest_distance2({disks.x[j] - disks.x[i], disks.y[j] - disks.y[i]}, scene.box));
-          if (pair && j != i && r < 3.0) expected[static_cast<std::size_t>(r / 0.3)] += 2;  // of two samples
+          if (pair && j != i && r < 3.0) expected[static_cast<std::size_t>(r / 0.3)] += 2;  // two samples
         }
       }
       EXPECT_EQ(curves[next].group + curves[next].other, one.name + other.name);
@@ -226,7 +225,7 @@ TEST(PairDistances, GroupsHavePairsOfTheirOwn) {
   }
 }
 
-// [analysis] select: of all pairs those of the group alone, though others are near.
+// [analysis] select: pairs are those of the group only, even if other disks are near.
 TEST(PairDistances, ASelectionHasPairsOfItsDisksAlone) {
   Scene scene;
   scene.box = test::box_of(10.0, 10.0, test::Periodic::both);
@@ -241,7 +240,7 @@ TEST(PairDistances, ASelectionHasPairsOfItsDisksAlone) {
   EXPECT_EQ(record.pairs.centres, 2U);
 }
 
-// Where the margins of both sides overlap no disk is a centre, and none has an area to be in.
+// If the margins of both sides overlap no disk is a centre, and there is no area for centres.
 TEST(PairDistances, ABoxWithinItsMarginsHasNoCentres) {
   const Domain box = test::box_of(10.0, 8.0);
   const DistanceBins bins{3.0, 10, 6.0};
@@ -249,7 +248,7 @@ TEST(PairDistances, ABoxWithinItsMarginsHasNoCentres) {
   EXPECT_EQ(count_pairs(test::disks_of({{5.0, 4.0}, {6.0, 4.0}}), box, bins).centres, 0U);
 }
 
-// A square lattice: 4 neighbours at 1, 4 at sqrt 2, 4 at 2, and none elsewhere.
+// A square lattice: 4 neighbours at 1, 4 at sqrt 2, 4 at 2, and none at other distances.
 TEST(PairDistances, LatticeHasItsShells) {
   Domain box{12.0, 12.0};
   test::set_sides(box, SideKind::periodic, SideKind::periodic);

@@ -1,4 +1,4 @@
-// Density along an axis and the histogram of speeds, against what can be said beforehand.
+// The density along an axis and the histogram of speeds, compared with results known beforehand.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ TEST(DensityProfile, ShareBelowALine) {
   EXPECT_NEAR(share_below(0.0), 0.5, 1e-15);
   for (const double h : {-0.9, -0.3, 0.2, 0.7}) {
     EXPECT_NEAR(share_below(h) + share_below(-h), 1.0, 1e-15);
-    double sum = 0.0;  // of thin strips
+    double sum = 0.0;  // sum over thin strips
     constexpr int strips = 100000;
     for (int k = 0; k < strips; ++k) {
       const double y = -1.0 + (h + 1.0) * (k + 0.5) / strips;
@@ -27,8 +27,8 @@ TEST(DensityProfile, ShareBelowALine) {
   }
 }
 
-// One disk across a periodic side, one across two slabs, one beyond a wall of a box that is periodic the other way: all
-// of its area is somewhere.
+// A disk across a periodic side, a disk across two slabs, and a disk beyond a wall of a box that is periodic along the
+// other axis: no area is lost.
 TEST(DensityProfile, AreaIsSharedOutAndNoneIsLost) {
   for (const bool along_x : {true, false}) {
     Domain box{8.0, 8.0};
@@ -46,8 +46,8 @@ TEST(DensityProfile, AreaIsSharedOutAndNoneIsLost) {
   }
 }
 
-// Rows of a run from 1 to 6: [1, 3), [3, 5), [5, 6]; a sample at an edge belongs to the later row, the last one to the
-// last, and the rows add up to the whole.
+// The rows of a run from 1 to 6 are [1, 3), [3, 5), [5, 6]; a sample at an edge belongs to the later row, the last one
+// to the last row, and the rows add up to the whole.
 TEST(Profiles, RowsDivideTheRun) {
   Scene scene;
   scene.box = {12.0, 8.0};
@@ -70,7 +70,7 @@ TEST(Profiles, RowsDivideTheRun) {
     EXPECT_EQ(record.motion_rows[row].samples, samples[row]);
     EXPECT_EQ(record.density_rows[row].samples, samples[row]);
   }
-  EXPECT_EQ(record.motion_rows[1].disks, (std::vector<Count>{0, 1, 1, 0})) << "at y = 3 and 4";
+  EXPECT_EQ(record.motion_rows[1].disks, (std::vector<Count>{0, 1, 1, 0})) << "the disk is at y = 3 and 4";
   EXPECT_EQ(profile_curves(record.motion_rows[1], scene).vx[1], 4.0);
   EXPECT_EQ(row_times(3, 2.0, scene), (std::vector<double>{1.0, 3.0, 5.0}));
   EXPECT_EQ(profile_curves(record.motion, scene).position, (std::vector<double>{1.0, 3.0, 5.0, 7.0})) << "along y";
@@ -82,8 +82,7 @@ TEST(Profiles, RowsDivideTheRun) {
   }
 }
 
-// How many samples each row of a density profile has, with a row for each `every` of a run from the first to the last
-// of these times.
+// The number of samples in each row of a density profile, with a row for each `every` of a run over these times.
 std::vector<Count> samples_of_rows(const std::vector<double>& times, double every) {
   Scene scene;
   scene.box = {8.0, 8.0};
@@ -101,24 +100,26 @@ std::vector<Count> samples_of_rows(const std::vector<double>& times, double ever
   return samples;
 }
 
-// Where the run ends at an edge, there is no row beyond it.
+// If the run ends at an edge there is no row beyond it.
 TEST(Profiles, TheLastMomentBelongsToTheLastRow) {
-  EXPECT_EQ(samples_of_rows({1.0, 2.0, 3.0, 4.0, 5.0}, 2.0), (std::vector<Count>{2, 3})) << "the last at 3, 4 and 5";
+  EXPECT_EQ(samples_of_rows({1.0, 2.0, 3.0, 4.0, 5.0}, 2.0), (std::vector<Count>{2, 3}))
+      << "the last row has the samples at 3, 4 and 5";
 }
 
-// A run that ends where its analysis begins has one sample, and one row.
+// A run that ends where its analysis begins has one sample and one row.
 TEST(Profiles, ARunOfNoLengthHasARow) {
   EXPECT_EQ(samples_of_rows({1.0}, 2.0), (std::vector<Count>{1}));
 }
 
-// Times that are rounded lie a little beside the edges that they are meant to be at: (0.9 - 0.8) / 0.1 is less than 1,
-// and (1.1 - 0.8) / 0.1 more than 3.
+// Rounded times may be a little beside the edges at which they should be: (0.9 - 0.8) / 0.1 is less than 1, and (1.1 -
+// 0.8) / 0.1 more than 3.
 TEST(Profiles, RowsBeginWhereTheyAreMeantTo) {
-  EXPECT_EQ(samples_of_rows({0.8, 0.9, 1.0, 1.1}, 0.1), (std::vector<Count>{1, 1, 2})) << "the last at 1.0 and 1.1";
+  EXPECT_EQ(samples_of_rows({0.8, 0.9, 1.0, 1.1}, 0.1), (std::vector<Count>{1, 1, 2}))
+      << "the last row has the samples at 1.0 and 1.1";
 }
 
-// A run that goes on to a later end has the rows of one that had this end from the start: what was its last moment, at
-// an edge, belongs to the row that begins there.
+// A run continued to a later end has the rows of a run with that end from the start: its former last sample, at an
+// edge, belongs to the row that begins there.
 TEST(Profiles, ALaterEndHasTheRowsOfAWholeRun) {
   Scene scene;
   scene.box = {8.0, 8.0};
@@ -146,10 +147,10 @@ TEST(Profiles, ALaterEndHasTheRowsOfAWholeRun) {
   const std::vector<MotionProfile> motion = motion_rows_of_run(record, scene);
   EXPECT_EQ(samples_of(density), (std::vector<Count>{2, 2, 3}));
   EXPECT_EQ(samples_of(motion), (std::vector<Count>{2, 2, 3}));
-  EXPECT_EQ(density[2].centres, (std::vector<Count>{0, 0, 1, 2})) << "at y = 5, 6 and 7";
+  EXPECT_EQ(density[2].centres, (std::vector<Count>{0, 0, 1, 2})) << "the disk is at y = 5, 6 and 7";
 }
 
-// Whatever the parts, joined they are the profile of all samples, the temperature from the mean of all included.
+// Parts of any kind, joined, are the profile of all samples, including the temperature relative to the mean of all.
 TEST(Profiles, JoinedPartsAreTheWhole) {
   test::Draws draws(7);
   const Domain box{10.0, 10.0};
@@ -176,7 +177,7 @@ TEST(Profiles, JoinedPartsAreTheWhole) {
   }
 }
 
-// The same sums in whatever order disks are stored.
+// The sums are the same for any order of storage.
 TEST(DensityProfile, StorageOrderChangesNoBit) {
   test::Draws draws(3);
   const Domain box{10.0, 10.0};
@@ -190,8 +191,8 @@ TEST(DensityProfile, StorageOrderChangesNoBit) {
   EXPECT_EQ(covered(list), covered(turned));
 }
 
-// Of a disk that weighs nothing against the other, the heavy one's energy is all but that of the mean velocity, and
-// rounding may take off more than is left.
+// If one of two disks weighs nothing compared with the other, the heavy one's energy is nearly all that of the mean
+// velocity, and rounding may make the difference negative.
 TEST(MotionProfile, RoundingMakesNoNegativeTemperature) {
   MotionProfile profile = empty_profile(1);
   const Disks disks = test::disks_of({{1.0, 1.0, 0.0, 0.0, 0.1, 1e-30}, {3.0, 1.0, 1.7, 0.0, 0.1, 1.2}});
@@ -202,7 +203,7 @@ TEST(MotionProfile, RoundingMakesNoNegativeTemperature) {
 TEST(SpeedHistogram, CountsReducedSpeeds) {
   SpeedHistogram h;
   h.counts.assign(4, 0);
-  // v^2 m / T is 1, 4 and 100 at T = 2: u = 1, 2, 10.
+  // v^2 m / T is 1, 4 and 100 at T = 2, so u = 1, 2, 10.
   const Disks disks =
       test::disks_of({{0, 0, 1.0, 0.0, 1.0, 2.0}, {0, 0, 0.0, -1.0, 1.0, 8.0}, {0, 0, 6.0, 8.0, 1.0, 2.0}});
   add_speeds(h, disks, 2.0, 4.0);
@@ -210,14 +211,14 @@ TEST(SpeedHistogram, CountsReducedSpeeds) {
   EXPECT_EQ(h.beyond, 1U);
   EXPECT_EQ(h.largest_seen, 10.0);
   add_speeds(h, disks, 0.0, 4.0);
-  EXPECT_EQ(h.samples, 1U) << "all at rest: there is no scale";
-  // Bins of width 1, one of three disks each; what is beyond the last one is a disk like the others.
+  EXPECT_EQ(h.samples, 1U) << "with all disks at rest there is no scale";
+  // Bins of width 1 with one of three disks each; a disk beyond the last bin counts as a sample like the others.
   AnalysisRecord record;
   record.speeds = h;
   AnalysisPlan plan;
   plan.speed_max = 4.0;
   EXPECT_EQ(speed_curve(record, plan).value, (std::vector<double>{0.0, 1.0 / 3.0, 1.0 / 3.0, 0.0}));
-  // The same disks at four times the temperature: 0.5, 1, 5.
+  // The same disks at four times the temperature: u = 0.5, 1, 5.
   add_speeds(h, disks, 8.0, 4.0);
   EXPECT_EQ(h.counts, (std::vector<Count>{1, 2, 1, 0}));
   EXPECT_EQ(h.beyond, 2U);

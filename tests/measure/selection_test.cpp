@@ -1,5 +1,5 @@
-// [analysis] select: what is measured of a group while other disks are there is what is measured where it is alone; the
-// mean pressure and collision rate are those of all disks.
+// [analysis] select: quantities of a group among other disks are those of the group alone; the mean pressure and
+// collision rate are those of all disks.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,7 +26,7 @@ Scene scene_of_all_quantities() {
 
 class Selection : public testing::Test {
  protected:
-  // Two samples of sixty disks, of which every sixth but one belongs to the group, and of a group that is alone.
+  // Two samples of sixty disks, of which all but every sixth belong to the group, and two samples of the group alone.
   Selection() : scene_(scene_of_all_quantities()), of_group_(scene_), all_(empty_record(scene_)) {
     of_group_.analysis.group = "some";
     of_group_.analysis.ids = {20, 50};
@@ -87,7 +87,7 @@ TEST_F(Selection, MeansAreThoseOfAllDisks) {
   EXPECT_EQ(selected_.series.collision_rate[1], 14.0);
 }
 
-// A record that was read from a file goes on if each of its series has all samples.
+// A record read from a file is continued only if each of its series has all samples.
 TEST_F(Selection, ARecordThatLacksASampleOfOneSeriesGoesWithNoScene) {
   ASSERT_TRUE(goes_with(all_, scene_));
   using Series = std::vector<double> SampleSeries::*;
@@ -102,7 +102,7 @@ TEST_F(Selection, ARecordThatLacksASampleOfOneSeriesGoesWithNoScene) {
   }
 }
 
-// What happened before the first sample, however long that took, is in no mean.
+// Means exclude what happened before the first sample, however long that took.
 TEST(FirstSample, HasNoMeans) {
   Scene scene = scene_of_all_quantities();
   AnalysisRecord record = empty_record(scene);
@@ -123,7 +123,7 @@ TEST(FirstSample, HasNoMeans) {
   EXPECT_EQ(record.series.collision_rate.at(1), 2.0);
 }
 
-// Fewer than seven disks have no psi6: of a sample with as few there are no pairs, and the next one has its own.
+// With fewer than seven disks there is no psi6: a sample with so few has no pairs, and must not affect the next.
 TEST(BondCorrelation, LeavesOutSamplesOfSixDisks) {
   const Scene scene = scene_of_all_quantities();
   test::Draws draws(43);

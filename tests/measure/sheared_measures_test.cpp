@@ -1,5 +1,4 @@
-// What is measured in a sheared box: against all images of all disks, and where it must not matter which image is
-// taken.
+// Measurements in a sheared box, compared with all images of all disks, and independent of the choice of images.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -31,7 +30,8 @@ Domain sheared_box(double width, double height, double offset) {
   return box;
 }
 
-// look(dx, dy) to the images of disk j from disk i in rows that are near, in each the nearest one along x.
+// Calls look(dx, dy) for the images of disk j relative to disk i, in rows that are near, with the nearest image along x
+// in each.
 template <class Look>
 void for_each_image(const Disks& d, std::size_t i, std::size_t j, const Domain& box, const Look& look) {
   for (int k = -9; k <= 9; ++k) {
@@ -43,9 +43,9 @@ void for_each_image(const Disks& d, std::size_t i, std::size_t j, const Domain& 
 struct Shape {
   double width, height, r_max;
 };
-// Many cells, few, one along a side; the largest r_max, of cells no larger than that.
+// Many cells, few cells, one cell along a side; the largest r_max, and cells no larger than that.
 const Shape shapes[] = {{20, 20, 3}, {50, 7, 3.5}, {7, 50, 2.5}, {9, 10, 3}, {8, 8, 4}, {40, 30, 1}, {12, 12, 3}};
-const double offset_shares[] = {0.0, 0.1, -0.25, 0.3333, 0.5, -0.5, 0.4999};  // of the width
+const double offset_shares[] = {0.0, 0.1, -0.25, 0.3333, 0.5, -0.5, 0.4999};  // offsets as shares of the width
 
 TEST(ShearedMeasures, PairDistancesAreThoseOfAllImages) {
   test::Draws draws(21);
@@ -70,7 +70,7 @@ TEST(ShearedMeasures, PairDistancesAreThoseOfAllImages) {
   }
 }
 
-// Each disk counts once, by its nearest image; few disks have neighbours further than half the height.
+// Each disk counts once, by its nearest image; with few disks neighbours are further away than half the height.
 TEST(LongShearedMeasures, BondOrderIsThatOfAllImages) {
   test::Draws draws(22);
   for (const Shape& s : shapes) {
@@ -103,7 +103,7 @@ TEST(LongShearedMeasures, BondOrderIsThatOfAllImages) {
   }
 }
 
-// Along x the wave of the images with the least |ky|; which image of a disk is in the box does not matter.
+// Along x it is the wave of the images with the least |ky|; it does not matter which image of a disk is in the box.
 TEST(ShearedMeasures, StructureFactorGoesByWavesThatImagesRepeat) {
   test::Draws draws(23);
   constexpr std::size_t waves = 40;
@@ -119,7 +119,7 @@ TEST(ShearedMeasures, StructureFactorGoesByWavesThatImagesRepeat) {
       EXPECT_LE(std::abs(ky), std::numbers::pi / 20.0 * (1.0 + 1e-12));
       std::complex<double> sum = 0.0, up = 0.0;
       for (std::size_t i = 0; i < d.size(); ++i) {
-        // Any image.
+        // An arbitrary image.
         const double k = draws.in(-3.0, 3.0) > 0.0 ? 1.0 : -2.0;
         const double x = d.x[i] + k * box.shear.offset - k * 30.0, y = d.y[i] + k * 20.0;
         sum += std::polar(1.0, kx * x + ky * y);
@@ -137,7 +137,7 @@ TEST(ShearedMeasures, StructureFactorGoesByWavesThatImagesRepeat) {
   }
 }
 
-// A square lattice that the shear has carried along.
+// A square lattice carried along by the shear.
 TEST(ShearedMeasures, StructureFactorOfASlidLatticeHasItsPeak) {
   const double offset = 3.0;
   const Domain box = sheared_box(12.0, 12.0, offset);
@@ -148,13 +148,13 @@ TEST(ShearedMeasures, StructureFactorOfASlidLatticeHasItsPeak) {
   }
   StructureFactor s{std::vector<double>(48, 0.0), std::vector<double>(24, 0.0), 0};
   add_structure(s, d, box);
-  // ky = 0 at multiples of 4 waves: rows lie a quarter of a column apart along x, so that they are in step at each
+  // ky = 0 at multiples of 4 waves. Rows are shifted by a quarter of a column along x, so they are in phase at each
   // fourth multiple of 12 waves.
   for (std::size_t n = 1; n <= 48; ++n) EXPECT_NEAR(s.along_x[n - 1], n == 48 ? 144.0 : 0.0, 1e-9) << n;
   for (std::size_t n = 1; n <= 24; ++n) EXPECT_NEAR(s.along_y[n - 1], n % 12 == 0 ? 144.0 : 0.0, 1e-9) << n;
 }
 
-// Of two disks one goes with the flow, whose velocity is -0.25 there.
+// Of two disks one moves with the flow, whose velocity is -0.25 there.
 TEST(ShearedMeasures, PressureOfASampleIsOfVelocitiesRelativeToTheFlow) {
   Scene scene;
   scene.box = sheared_box(20.0, 10.0, 0.0);
@@ -170,8 +170,8 @@ TEST(ShearedMeasures, PressureOfASampleIsOfVelocitiesRelativeToTheFlow) {
   EXPECT_DOUBLE_EQ(record.series.pressure[1], (12.5 + 14.0 / 4.0) / 200.0);
 }
 
-// The same two disks: energies of 0 and 12.5 relative to the flow, half of the sum each, so that speeds are 0 and 2, in
-// units of sqrt(T / m).
+// The same two disks: relative to the flow their energies are 0 and 12.5, and T is half of the sum, so their speeds are
+// 0 and 2 in units of sqrt(T / m).
 TEST(ShearedMeasures, TemperatureAndSpeedsAreRelativeToTheFlow) {
   Scene scene;
   scene.box = sheared_box(20.0, 10.0, 0.0);
@@ -197,14 +197,14 @@ TEST(ShearedMeasures, VelocitiesAreRememberedRelativeToTheFlow) {
   EXPECT_EQ(record.series.autocorrelation, std::vector<double>{12.5});
 }
 
-// -(sum of m ux uy + virial over time) / area, u relative to the flow.
+// -(sum of m ux uy + virial over time) / area, with u relative to the flow.
 TEST(ShearedMeasures, StressIsThatOfMotionAndCollisions) {
   const Domain box = sheared_box(20.0, 10.0, 0.0);
   EXPECT_DOUBLE_EQ(shear_stress(30.0, 40.0, 2.0, box), -(30.0 + 20.0) / 200.0);
   EXPECT_EQ(shear_stress(30.0, 40.0, 0.0, box), 0.0);
 }
 
-// Two disks across the top, half a unit apart where the images above have gone to by the time of the sample.
+// Two disks across the top, half a unit apart at the place of the images at the time of the sample.
 TEST(ShearedMeasures, PairsOfASampleAreThoseOfItsTime) {
   Scene scene;
   scene.box = sheared_box(20.0, 10.0, 0.0);
@@ -214,12 +214,12 @@ TEST(ShearedMeasures, PairsOfASampleAreThoseOfItsTime) {
   const Disks disks = test::disks_of({{5.0, 9.75, 0.0, 0.0, 0.1, 1.0}, {2.0, 0.25, 0.0, 0.0, 0.1, 1.0}});
   AnalysisRecord record = empty_record(scene);
   take_sample(record, scene, disks, 0.0, {}, run_in_order);
-  EXPECT_EQ(record.pairs.counts, (std::vector<Count>{0, 0})) << "3 apart along x";
+  EXPECT_EQ(record.pairs.counts, (std::vector<Count>{0, 0})) << "the disks are 3 apart along x";
   take_sample(record, scene, disks, 3.0, {}, run_in_order);
-  EXPECT_EQ(record.pairs.counts, (std::vector<Count>{2, 0})) << "each from the other";
+  EXPECT_EQ(record.pairs.counts, (std::vector<Count>{2, 0})) << "each disk counts the other";
 }
 
-// A disk that goes up through the box for ever while the flow carries it along: (y - y_0)^2 alone.
+// A disk rises through the box for ever while the flow carries it along: only (y - y_0)^2 counts.
 TEST(ShearedMeasures, DisplacementIsAcrossTheFlow) {
   Domain box = sheared_box(10.0, 10.0, 0.0);
   Disks d;
@@ -240,10 +240,11 @@ TEST(ShearedMeasures, DisplacementIsAcrossTheFlow) {
     EXPECT_NEAR(mean.value, 0.5 * k * k, 1e-9) << k;
     EXPECT_EQ(mean.disks, 2U);
   }
-  EXPECT_EQ(tally.doubtful, 0U) << "jumps of images along x are no doubt";
+  EXPECT_EQ(tally.doubtful, 0U) << "jumps of images along x must not be doubtful";
 }
 
-// One window of exact takes the disk up through a low and wide box fifteen times: looks between go by its height.
+// In one window of exact the disk rises fifteen times through a low and wide box: looks in between follow from the
+// box's height.
 TEST(ShearedMeasures, DisplacementIsFollowedByTheHeightOfTheBox) {
   Scene scene = test::scene_of(Method::exact, 40.0, 4.0, 0.0, 20.0);
   test::set_sides(scene.box, SideKind::periodic, SideKind::periodic);

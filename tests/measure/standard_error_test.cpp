@@ -1,4 +1,4 @@
-// Errors by blocking, and the diffusion coefficient of a displacement with its error, against what is known of them.
+// Errors by blocking, and the diffusion coefficient of a displacement with its error, compared with known results.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t samples = 1 << 15;
 
-// x_k+1 = a x_k + sqrt(1 - a^2) noise: variance 1, correlation a^k, so that the mean of n has the error
-// sqrt((1 + a) / (1 - a) / n).
+// x_k+1 = a x_k + sqrt(1 - a^2) noise: variance 1 and correlation a^k, so the mean of n has the error sqrt((1 + a) / (1
+// - a) / n).
 std::vector<double> correlated(double a, std::uint64_t seed, std::size_t count = samples) {
   std::vector<double> series(count);
   double x = normals(seed, Stream::velocity, 0, 0).x;
@@ -44,31 +44,31 @@ TEST(BlockingError, OfFewSamplesIsThatOfIndependentOnes) {
   EXPECT_TRUE(std::isnan(blocking_error({})));
 }
 
-// Samples of 1 and -1, `length` of each in turn.
+// Samples of 1 and -1 in turn, `length` of each.
 std::vector<double> square_wave(std::size_t count, std::size_t length) {
   std::vector<double> series(count);
   for (std::size_t k = 0; k < count; ++k) series[k] = k / length % 2 == 0 ? 1.0 : -1.0;
   return series;
 }
 
-// Blocks of two average such samples away: the largest estimate is the first one.
+// Blocks of two average out such samples, so the largest estimate is the first one.
 TEST(BlockingError, IsTheLargestOfTheEstimates) {
   EXPECT_DOUBLE_EQ(blocking_error(square_wave(128, 1)), std::sqrt(1.0 / 127.0));
 }
 
-// The longer the blocks of these samples, the larger the estimate, up to blocks of four: of 64 samples there are too
-// few of these, and it is that of blocks of two.
+// For these samples estimates grow with the length of blocks up to four. With 64 samples there are too few such blocks,
+// so the estimate is that of blocks of two.
 TEST(BlockingError, TakesNoFewerThan32Blocks) {
   EXPECT_DOUBLE_EQ(blocking_error(square_wave(64, 4)), std::sqrt(1.0 / 31.0));
   EXPECT_DOUBLE_EQ(blocking_error(square_wave(128, 4)), std::sqrt(1.0 / 31.0));
 }
 
-// So few samples that no blocks of 32 are longer than the correlations: what the mean scatters by all the same, where
-// there are eight correlation times or more.
+// With few samples blocks, of which there must be 32, are shorter than the correlations: the error must still be the
+// scatter of the mean, if there are at least eight correlation times.
 TEST(BlockingError, KnowsCorrelationsThatAreLongerThanItsBlocks) {
   struct Case {
     std::size_t count;
-    double time;  // over which correlations decay, in samples
+    double time;  // decay time of correlations, in samples
   };
   for (const auto& [count, time] : {Case{40, 3.0}, Case{100, 0.0}, Case{100, 3.0}, Case{100, 11.0}, Case{250, 11.0},
                                     Case{500, 33.0}, Case{1000, 100.0}}) {
@@ -86,14 +86,14 @@ TEST(BlockingError, KnowsCorrelationsThatAreLongerThanItsBlocks) {
   }
 }
 
-// Of ten blocks 1, 1, 1, 1, 1, -1, ..., -1 nine neighbours are alike but for one pair.
+// Of ten blocks 1, 1, 1, 1, 1, -1, ..., -1 all neighbours except one pair are equal.
 TEST(BlockingError, OfCorrelatedBlocksByHand) {
   EXPECT_DOUBLE_EQ(blocking_error(square_wave(10, 5)), std::sqrt(1.0 / 9.0 * (1.0 + 0.7) / (1.0 - 0.7)));
   EXPECT_DOUBLE_EQ(blocking_error({2.0, 2.0, 2.0}), 0.0);
 }
 
-// Means over intervals of many lengths, each with an error as of 1 / interval events: the short ones scatter most and
-// count least.
+// Means over intervals of many lengths, whose errors go as 1 / sqrt(interval): short intervals scatter most and weigh
+// least.
 TEST(BlockingError, OfAWeightedMeanIsWhatThatScattersBy) {
   double off2 = 0.0, error2 = 0.0;
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {
@@ -112,7 +112,7 @@ TEST(BlockingError, OfAWeightedMeanIsWhatThatScattersBy) {
   }
   EXPECT_GT(error2, 0.8 * off2);
   EXPECT_LT(error2, 1.8 * off2);
-  EXPECT_TRUE(std::isnan(blocking_error({1.0, 2.0, 3.0}, {1.0, 0.0, 0.0}))) << "one that weighs something";
+  EXPECT_TRUE(std::isnan(blocking_error({1.0, 2.0, 3.0}, {1.0, 0.0, 0.0}))) << "only one sample has a weight";
 }
 
 // Random walks of 400 disks with D = 0.5.
@@ -139,11 +139,12 @@ TEST(DiffusionFit, FindsThatOfARandomWalkWithinItsError) {
     off2 += (fit.value - d) * (fit.value - d);
     error2 += fit.error * fit.error;
   }
-  EXPECT_GT(error2, 0.4 * off2) << "the errors are those that there are, by and large";
+  EXPECT_GT(error2, 0.4 * off2) << "the errors must be roughly the true ones";
   EXPECT_LT(error2, 2.5 * off2);
 }
 
-// Begun at 100: the first half does not count. Of the second one, eight parts with D = 1 and 3 by turns.
+// Starting at 100 the first half does not count. The second half is divided into eight parts, which have D = 1 and 3 in
+// turn.
 TEST(DiffusionFit, ErrorIsThatOfTheMeanOfEightParts) {
   std::vector<double> time, square;
   for (int k = 0; k <= 32; ++k) {
@@ -157,7 +158,7 @@ TEST(DiffusionFit, ErrorIsThatOfTheMeanOfEightParts) {
   EXPECT_DOUBLE_EQ(fit.error, std::sqrt(8.0 / 7.0 / 8.0));
 }
 
-// Parts that go on as the one before did, two by two: as if there were four.
+// Parts that are equal in pairs: the error is as if there were four parts.
 TEST(DiffusionFit, ErrorKnowsOfPartsThatAreCorrelated) {
   std::vector<double> time, square;
   for (int k = 0; k <= 32; ++k) {
@@ -177,7 +178,7 @@ TEST(DiffusionFit, NeedsEightStepsInTheSecondHalf) {
     time.push_back(k);
     square.push_back(12.0 * k);
   }
-  EXPECT_TRUE(std::isnan(fit_diffusion(time, square).value)) << "from 8 to 15";
+  EXPECT_TRUE(std::isnan(fit_diffusion(time, square).value)) << "seven steps, from 8 to 15";
   time.push_back(16.0);
   square.push_back(12.0 * 16.0);
   const DiffusionFit fit = fit_diffusion(time, square);

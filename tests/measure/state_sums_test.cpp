@@ -1,4 +1,4 @@
-// What a summary says of all disks together, by hand, from disks that come in two pieces.
+// The sums over all disks for a summary, compared with numbers by hand, from disks in two pieces.
 #include "core/measure/state_sums.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace carom {
 namespace {
 
-// In a flow of 0.1 (y - 5), masses of 2 and 4: (3, 4) and (0, 2) relative to it.
+// In a flow of 0.1 (y - 5) masses of 2 and 4 have velocities (3, 4) and (0, 2) relative to it.
 TEST(StateSums, AreOfAllPieces) {
   Scene scene;
   scene.box = test::box_of(20.0, 10.0, test::Periodic::both);
@@ -32,13 +32,13 @@ TEST(StateSums, AreOfAllPieces) {
   EXPECT_DOUBLE_EQ(sums.at.energy.kinetic, (2.75 * 2.75 + 16.0) + 2.0 * (0.0625 + 4.0));
   EXPECT_DOUBLE_EQ(sums.at.momentum.x, 2.0 * 2.75 + 4.0 * 0.25);
   EXPECT_DOUBLE_EQ(sums.at.momentum.y, 2.0 * 4.0 + 4.0 * 2.0);
-  EXPECT_EQ(sums.smallest_radius, 0.25) << "in the first piece";
+  EXPECT_EQ(sums.smallest_radius, 0.25) << "the smallest disk is in the first piece";
   EXPECT_DOUBLE_EQ(sums.fastest, std::hypot(2.75, 4.0)) << "likewise";
   EXPECT_EQ(sums.hash, state_hash(both));
   scene.box.shear = {};
   StateTally still(scene, 7.0);
   still.add(both, by_id(both));
-  EXPECT_EQ(still.sums().at.relative, sums.at.energy.kinetic) << "no flow";
+  EXPECT_EQ(still.sums().at.relative, sums.at.energy.kinetic) << "without a flow both are the same";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What is kept and said of a step's figures, given by hand, and where walls are among them.
+// Which figures of a step are kept and reported, given by hand, and when walls are watched.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace carom {
 namespace {
 
-// Supports of a pile are met late without harm in a step that keeps them, with pairwise; not in a frame of rollback.
+// With pairwise late contacts of supports in a pile are harmless and not reported; in a frame of rollback they are.
 TEST(StepFigures, OfAPileLateCollisionsAreSaidWithRollbackAlone) {
   Scene scene = test::scene_from(test::sound_scene, {{"physics.gravity", "1.0"}, {"physics.restitution", "0.5"}});
   for (const Method method : {Method::pairwise, Method::rollback}) {
@@ -28,8 +28,8 @@ TEST(StepFigures, OfAPileLateCollisionsAreSaidWithRollbackAlone) {
   }
 }
 
-// Of two disks what a step began with counts as well, as it is then pushed apart: it is kept, and said where it was
-// deep.
+// For two disks the overlap at the start of a step counts as well, although they are then pushed apart: it is kept, and
+// reported if it is deep.
 TEST(StepFigures, AnOverlapBeforeAStepIsKeptAndSaid) {
   const Scene scene = test::scene_from(test::sound_scene, {{"run.method", "pairwise"}});
   for (const double before : {0.9 * largest_overlap_before, 1.1 * largest_overlap_before}) {
@@ -45,7 +45,7 @@ TEST(StepFigures, AnOverlapBeforeAStepIsKeptAndSaid) {
   }
 }
 
-// By exact it is a contact that was missed, when it is seen and at the end.
+// In exact an overlap with a wall is a missed contact, reported when it is seen and at the end.
 TEST(StepFigures, AnOverlapWithAWallByExactIsAMissedContact) {
   const Scene scene = test::scene_from(test::sound_scene, {{"run.method", "exact"}});
   State state;
@@ -59,7 +59,7 @@ TEST(StepFigures, AnOverlapWithAWallByExactIsAMissedContact) {
   EXPECT_EQ(worst_moment_warnings(scene, state), said);
 }
 
-// Between walls that move, a disk that reaches deep into another is crushed as one that reaches into a wall.
+// Between moving walls, a disk deep in another one counts as crushed, like one deep in a wall.
 TEST(StepFigures, TheDeeperOfAWallAndADiskIsCrushed) {
   Scene scene = test::scene_from(test::sound_scene, {{"run.method", "pairwise"}});
   for (const bool moves : {true, false}) {
@@ -75,7 +75,7 @@ TEST(StepFigures, TheDeeperOfAWallAndADiskIsCrushed) {
   }
 }
 
-// Time that stalls twice, and worse the second time: that moment is the one at the end.
+// Time stalls twice, and worse the second time: that moment is reported at the end.
 TEST(StepFigures, TheWorstStallOfRollbackIsKept) {
   Scene scene = test::scene_from(test::sound_scene, {{"run.method", "rollback"}, {"physics.gravity", "0.0"}});
   scene.run.dt = 1.0;
@@ -92,7 +92,7 @@ TEST(StepFigures, TheWorstStallOfRollbackIsKept) {
   EXPECT_NEAR(state.validity.advance.figure, 0.02, 1e-9);
 }
 
-// Something presses disks into walls, or catches them between some.
+// Walls are watched if something presses disks into them, or may catch disks between two of them.
 TEST(StepFigures, WallsAreWatchedWhereDisksMayBePressedIntoThem) {
   const Scene plain = test::scene_from(test::sound_scene, {{"physics.gravity", "0.0"}});
   EXPECT_FALSE(walls_are_watched(plain));

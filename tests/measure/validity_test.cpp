@@ -1,4 +1,4 @@
-// A run that leaves what its method can do says so: once, with the figure and the remedy, in both engines alike.
+// A run that exceeds the limits of its method says so: once, with a figure and a remedy, in both engines alike.
 #include "core/step/validity.hpp"
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ using ::testing::IsEmpty;
 
 const std::string folder = CAROM_SOURCE_DIR "/scenes/stability/";
 
-// All warnings of a run; a run that the physics stops ends its list with that.
+// All warnings of a run; if the physics stops the run, the error is the last entry.
 std::vector<std::string> warnings_of(Engine& engine, const Scene& scene) {
   try {
     while (engine.state().time < scene.run.t_end) engine.step();
@@ -60,7 +60,7 @@ TEST(Validity, PairwiseSaysThatCollisionsAreSeenLate) {
                                         HasSubstr("use a smaller dt or run.method = \"exact\""))));
 }
 
-// The only step is cut to end at t_end: what is said of it when it comes is what the summary has, in units of any size.
+// The only step is cut to end at t_end: the warning in the step is the same as that in the summary, in any units.
 TEST(Validity, AStepThatIsSplitIsNamedWithItsLength) {
   for (const double unit : {1.0, 0x1p-30}) {
     const auto in_units = [unit](double value) { return fmt::format("{}", value * unit); };
@@ -89,8 +89,8 @@ TEST(Validity, RollbackSaysThatDisksBounceBeforeTheyTouch) {
   EXPECT_THAT(warnings_of(gas("0.05")), ElementsAre(HasSubstr("bounced at one moment with another of the same disk")));
 }
 
-// Disks that press from both sides collide until their speeds are the smallest that there are; whether these end or go
-// on for ever is rounding's, and with this restitution they go on.
+// Disks pressed from both sides collide until their speeds are the smallest numbers. By rounding this ends or goes on
+// for ever, and with this restitution it goes on.
 TEST(Validity, RollbackSaysThatTimeStallsBeforeItStops) {
   const Scene scene = stability_scene("f16_collapse_three", {{"physics.restitution", "0.03"},
                                                              {"disks.0.velocities", "[[1, 0], [0, 0], [-1, 0]]"},
@@ -102,7 +102,7 @@ TEST(Validity, RollbackSaysThatTimeStallsBeforeItStops) {
   EXPECT_THAT(warnings.back(), HasSubstr("rollback: time stands still at t = "));
 }
 
-// The piston leaves the disk less room than it moves in dt: it bounces twice and more often in a step.
+// The piston leaves the disk less room than it moves in dt: it bounces two or more times in a step.
 TEST(LongValidity, TimeSteppingSaysThatWallsAreMetLate) {
   for (const char* method : {"pairwise", "rollback"}) {
     const auto closing = [&](const char* end) {
@@ -116,7 +116,7 @@ TEST(LongValidity, TimeSteppingSaysThatWallsAreMetLate) {
   }
 }
 
-// A side that hardly moves is not what presses a disk of a gas into another wall: the step is as likely the reason.
+// A side that hardly moves is not what presses a disk of a gas into another wall: the step may as well be the reason.
 TEST(Validity, WhereAWallMovesTheStepMayBeTooLongAsWell) {
   const Scene gas =
       stability_scene("f02_bounce_at_a_distance", {{"disks.0.count", "300"},
@@ -151,7 +151,7 @@ TEST(Validity, PairwiseSaysHowFarDisksOverlap) {
                                                               HasSubstr("more than 2 %: dt = 0.05 is too long"))));
 }
 
-// What a run has come to, step by step: the deepest overlaps of the states that it went through.
+// The deepest overlaps of the states after each step of a run.
 struct Deepest {
   WorstOverlap disks, wall;
   explicit Deepest(Engine& engine, const Scene& scene) {
@@ -173,7 +173,7 @@ void expect_same(const WorstOverlap& a, const WorstOverlap& b) {
   EXPECT_EQ(a.time, b.time);
 }
 
-// The state of both engines at the end of the run, which must have kept the same.
+// The validity counts at the end of the run, which must be the same in both engines.
 ValidityCounts kept_by_both(const Scene& scene, const State& start, Engine& reference) {
   const auto parallel = make_parallel_engine(scene, start, {3, 512});
   while (parallel->state().time < scene.run.t_end) parallel->step();
@@ -196,8 +196,9 @@ TEST(Validity, TheDeepestOverlapsOfARunAreKeptWithTimeAndIds) {
   expect_same(kept.wall, seen.wall);
 }
 
-// A heavy disk presses a light one against the wall, ever deeper, and lets go of it long before the end: the warning
-// has the first overlap when it occurs, and the worst at the end. Steps are split, so parts of a step count, too.
+// A heavy disk presses a light one against the wall, ever deeper, and then moves away long before the end: there is a
+// warning of the first overlap when it occurs, and of the worst one at the end. Steps are split, so overlaps within a
+// step count, too.
 TEST(Validity, TheWorstIsReportedAtTheEnd) {
   const Scene scene = stability_scene("mass_ratio_1e6", {{"run.method", "pairwise"}, {"run.dt", "0.02"}});
   const State start = initial_state(scene);
@@ -226,7 +227,7 @@ TEST(Validity, ExactSaysThatTheCollapseModelTakesOver) {
                                                              HasSubstr("contact_time = 0.1 is long"))));
 }
 
-// A disk is put into a peg, as if a contact had been missed, and leaves it; above the peg, nothing is said.
+// A disk is put into a peg, as if a contact had been missed, and leaves it. Above the peg nothing is reported.
 TEST(Validity, ExactSaysWhereADiskIsInAPeg) {
   const Scene scene = test::scene_from(R"(
 [box]
@@ -301,8 +302,8 @@ TEST(Validity, ScenesThatNoMethodServesWarnBeforeTheFirstStep) {
       ElementsAre(AllOf(HasSubstr("a Brownian disk moves by 2 of the smallest radius"), HasSubstr("use dt <= 0.062"))));
 }
 
-// In half a period a wall comes back to where it was: at its mean speed it stands still, and a gas keeps the energy
-// that it would change.
+// In half a period a wall returns to where it was: with its mean speed it would be at rest, and a gas would keep its
+// energy, which is wrong.
 TEST(Validity, AStepThatIsLongAgainstAVibrationIsToldBeforeTheFirst) {
   const auto shaken = [](const std::string& where, const char* method, double dt) {
     const std::string motion = "motion = { vibrate = [0.0, 0.005], period = 0.05 }";
@@ -335,8 +336,8 @@ TEST(Validity, AStepThatIsLongAgainstAVibrationIsToldBeforeTheFirst) {
   EXPECT_GT(std::abs(work("exact", 0.025)), 1.0);
 }
 
-// A share is one of all that may be inaccurate: with exact collisions with walls too, of which a step has its own
-// share.
+// Shares refer to the collisions that may be inaccurate: in exact these include bounces off walls; in a step bounces
+// have a share of their own.
 TEST(Validity, SharesAreOfTheCollisionsThatAreWatched) {
   Scene scene = test::scene_from(test::sound_scene, {{"physics.gravity", "0.0"}});
   const auto said = [&](Method method, Count inaccurate, Count at_walls, State& state) {
@@ -355,10 +356,10 @@ TEST(Validity, SharesAreOfTheCollisionsThatAreWatched) {
   EXPECT_THAT(said(Method::pairwise, 20, 0, b), ElementsAre(HasSubstr("20 of 100 collisions were seen a step late")));
   EXPECT_THAT(said(Method::pairwise, 0, 20, c), ElementsAre(HasSubstr("20 of 1000 bounces off walls and obstacles")));
   EXPECT_THAT(validity_warnings_so_far(scene, c), ElementsAre(HasSubstr("20 of 1000 bounces off walls and obstacles")));
-  EXPECT_THAT(said(Method::pairwise, 0, 10, d), IsEmpty()) << "ten are no share";
+  EXPECT_THAT(said(Method::pairwise, 0, 10, d), IsEmpty()) << "ten are too few";
 }
 
-// What stands deep in a wall at the end of a step is as bad as two disks that were so at its start.
+// A disk deep in a wall at the end of a step is as bad as two disks that overlap as much at its start.
 TEST(Validity, AnOverlapWithAWallIsNamedToo) {
   const Scene scene = test::scene_from(test::sound_scene, {{"run.method", "pairwise"}});
   for (const double overlap : {0.09, 0.11}) {
@@ -376,7 +377,7 @@ TEST(Validity, AnOverlapWithAWallIsNamedToo) {
   }
 }
 
-// A source may lag by one disk, unless it has not had room for a single one.
+// A source may lag behind by one disk, unless it has had no room for any.
 TEST(Validity, ASourceThatNeverHadRoomIsNamed) {
   Scene scene = test::scene_from(test::sound_scene);
   scene.sources.resize(1);
@@ -391,7 +392,7 @@ TEST(Validity, ASourceThatNeverHadRoomIsNamed) {
   EXPECT_THAT(waiting_warnings(scene, state), IsEmpty());
 }
 
-// A disk that is due at the end of a run does not come, so it does not wait: 9 do, of 1 to 19, as the counter says.
+// A disk that is due at the end of a run does not come, so it does not wait: 9 of 19 wait, as the counter says.
 TEST(Validity, NoDiskOfASourceWaitsThatIsDueAtTheEnd) {
   Scene scene = test::scene_from(test::sound_scene);
   scene.sources.resize(1);
