@@ -1,4 +1,4 @@
-// Wall time as people write it.
+// Durations of wall time as people write them.
 #include "core/base/duration.hpp"
 
 #include <gtest/gtest.h>

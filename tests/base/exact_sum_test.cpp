@@ -1,4 +1,4 @@
-// A sum of doubles without rounding: Kulisch's accumulator, against integers that hold the same sums.
+// A sum of doubles without rounding, Kulisch's accumulator, compared with integers that represent the same sums.
 #include "core/base/exact_sum.hpp"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ TEST(ExactSum, KeepsWhatCancellationLeaves) {
   EXPECT_EQ(sum_of({0x1p1023, -0x1p1022}), 0x1p1022);
 }
 
-// To nearest, ties to even; a bit far below the tie decides it.
+// Rounding is to nearest, with ties to even; a single bit far below a tie decides it.
 TEST(ExactSum, RoundsCorrectly) {
   EXPECT_EQ(sum_of({1.0, 0x1p-53}), 1.0);
   EXPECT_EQ(sum_of({1.0 + 0x1p-52, 0x1p-53}), 1.0 + 0x1p-51);
@@ -38,7 +38,8 @@ TEST(ExactSum, RoundsCorrectly) {
   EXPECT_EQ(sum_of({-1.0, -0x1p-53, -0x1p-1000}), -1.0 - 0x1p-52);
 }
 
-// Terms k 2^p with |k| < 2^53 and p in [-40, 0]: the sum of 2000 fits in 128 bits, whose conversion rounds correctly.
+// Terms are k 2^p with |k| < 2^53 and p in [-40, 0]: the sum of 2000 of them fits into 128 bits, whose conversion
+// rounds correctly.
 TEST(ExactSum, IsTheSumInAnyOrderAndScale) {
   __extension__ using Integer = __int128;
   std::mt19937_64 random(20240501);
@@ -67,8 +68,9 @@ TEST(ExactSum, IsTheSumInAnyOrderAndScale) {
   }
 }
 
-// Added as a whole they give what they give one by one: in numbers about those of blocks, over ranges that are within
-// what is extracted, beyond it, and beyond all scales, with zeros, and with what cancels but for the last bit.
+// Terms added as an array give the same sum as terms added one by one: for lengths around that of blocks; for ranges of
+// exponents within, beyond and far beyond that of the fast method; with zeros; and with terms that cancel except for
+// the last bit.
 TEST(ExactSum, OfManyIsThatOfEach) {
   std::mt19937_64 random(20261125);
   const auto mantissa = [&] { return std::ldexp(static_cast<double>(random() >> 11), -53) + 0.5; };
@@ -89,7 +91,7 @@ TEST(ExactSum, OfManyIsThatOfEach) {
   }
 }
 
-// A common power of two may be near either end of all doubles.
+// The common scale of the terms may be near either end of the range of doubles.
 TEST(ExactSum, OfManyAtTheEndsOfAllDoubles) {
   for (const double unit : {0x1p-1074, 0x1p-1022, 0x1p-901, 0x1p-900, 0x1p899, 0x1p900, 0x1p1010}) {
     std::vector<double> terms;

@@ -1,4 +1,4 @@
-// FixedPointSum: near the sum of its terms, and the same in any order and any parts.
+// FixedPointSum: close to the sum of its terms, and the same for any order and any division into parts.
 #include "core/base/fixed_point_sum.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ FixedPointSum sum_of(const std::vector<double>& terms, std::size_t begin, std::s
 TEST(FixedPointSum, IsExactOfMultiplesOfItsUnit) {
   EXPECT_EQ(value_of(sum_of({1.5, -2.0, 0x1p-40, -0x1p-20}, 0, 4)), -0.5 + 0x1p-40 - 0x1p-20);
   EXPECT_EQ(value_of(FixedPointSum{}), 0.0);
-  // Whatever is below the unit is cut off, towards zero.
+  // Anything below the unit is cut off, towards zero.
   EXPECT_EQ(value_of(sum_of({0x1.8p-40, -0x1.8p-40, -0x1.8p-41}, 0, 3)), 0.0);
 }
 
@@ -43,7 +43,7 @@ TEST(FixedPointSum, IsTheSameInAnyOrderAndAnyParts) {
   EXPECT_EQ(turned.low, all.low);
 }
 
-// As many terms of one sign as a bin of 10^9 disks may have: by adding a sum to itself.
+// As many terms of one sign as a bin may have with 10^9 disks, by adding a sum to itself.
 TEST(FixedPointSum, HasRoomForMany) {
   FixedPointSum sum;
   sum += fixed_point(2.0 - 0x1p-40);

@@ -26,7 +26,7 @@ TEST(HugePages, ResizeFillsWithTheValue) {
   EXPECT_GE(v.capacity(), 2 * many);
 }
 
-// What is given back reads as zero, page by page; what was not given back is as it was.
+// Freed memory reads as zero, page by page; other memory is unchanged.
 TEST(HugePages, GiveBackWholePagesOfAPartOnly) {
   std::vector<std::uint64_t> v(many, 7);
   const std::size_t begin = many / 4 + 1;
@@ -41,7 +41,7 @@ TEST(HugePages, GiveBackWholePagesOfAPartOnly) {
   EXPECT_LE(zeros, end - begin);
 }
 
-// Less than a page: nothing.
+// Less than a page is not freed.
 TEST(HugePages, GiveBackNothingOfAFewEntries) {
   std::vector<std::uint64_t> v(16, 7);
   give_back_pages(v, 1, 15);

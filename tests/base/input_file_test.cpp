@@ -1,4 +1,4 @@
-// Only files that end are read: no device and no FIFO, which would wait for a writer.
+// Only regular files are read, which have an end: no devices, and no FIFOs, where reading would wait for a writer.
 #include "core/base/input_file.hpp"
 
 #include <sys/stat.h>
@@ -42,11 +42,12 @@ TEST_F(InputFile, TrajectoriesAndCheckpointsMustEnd) {
 
 TEST_F(InputFile, StandardInputIsRead) {
   EXPECT_EQ(shell("cat small.toml | $C check /dev/stdin").status, 0);
-  EXPECT_EQ(shell("{ sleep 0.1; cat small.toml; } | $C check /dev/fd/0").status, 0) << "waits for a slow writer";
+  EXPECT_EQ(shell("{ sleep 0.1; cat small.toml; } | $C check /dev/fd/0").status, 0) << "it must wait for a slow writer";
   EXPECT_EQ(shell("$C check /dev/stdin <small.toml").status, 0);
 }
 
-// What this process alone has open its runs and ranks cannot read. They find nothing there, and do not wait for it.
+// Other processes, such as runs and ranks, cannot read files that only this process has open. They must find nothing
+// there, and not wait.
 TEST_F(InputFile, WhatSeveralProcessesReadHasAName) {
   const std::string expected = "/dev/stdin: is read by several processes; expected the name of a file";
   expect_error("$C sweep /dev/stdin -o s --seeds 2 <small.toml", 2, expected);

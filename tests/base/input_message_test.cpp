@@ -1,4 +1,4 @@
-// The one line of a complaint: fit for a terminal and for Python, whatever stood in a name or a file.
+// Error messages of one line that are safe for a terminal and for Python, whatever characters are in a name or a file.
 #include "core/base/input_message.hpp"
 
 #include <gtest/gtest.h>
@@ -35,11 +35,11 @@ TEST(InputMessage, StaysOneLineWithoutControlCharacters) {
   EXPECT_EQ(line_of("\xc2\x9b"
                     "31m"),
             said("??31m"))
-      << "what begins a colour on some terminals";
+      << "it starts a colour on some terminals";
 }
 
 TEST(InputMessage, CharactersThatHideOrTurnTextAreMarked) {
-  EXPECT_EQ(line_of("gas\u202Elmot.exe"), said("gas???lmot.exe")) << "would read \"gasexe.toml\"";
+  EXPECT_EQ(line_of("gas\u202Elmot.exe"), said("gas???lmot.exe")) << "it would be shown as \"gasexe.toml\"";
   for (const char* text :
        {"\u200b", "\u200e", "\u200f", "\u2028", "\u2029", "\u202a", "\u2060", "\u2066", "\u2069", "\u206f", "\ufeff"}) {
     EXPECT_EQ(line_of(text), said("???")) << text;
@@ -47,20 +47,20 @@ TEST(InputMessage, CharactersThatHideOrTurnTextAreMarked) {
   EXPECT_EQ(line_of("\u061c"), said("??"));
   for (const char* text : {"\u200c", "\u200d", "\u2010", "\u2027", "\u202f", "\u205f", "\u2070", "\ufefe", "\u061d",
                            "\u05d0\u05d1", "\u0627\u0644"}) {
-    EXPECT_EQ(line_of(text), said(text)) << "the letters beside them";
+    EXPECT_EQ(line_of(text), said(text)) << "neighbouring characters that are letters";
   }
 }
 
 TEST(InputMessage, BytesThatAreNoTextAreMarked) {
   EXPECT_EQ(line_of("\xff"), said("?"));
   EXPECT_EQ(line_of("\x80"), said("?"));
-  EXPECT_EQ(line_of("a\xc3"), said("a?")) << "cut within a character";
+  EXPECT_EQ(line_of("a\xc3"), said("a?")) << "a character cut short";
   EXPECT_EQ(line_of("\xe2\x82"), said("??"));
   EXPECT_EQ(line_of("\xe2\x82x"), said("??x"));
-  EXPECT_EQ(line_of("\xc0\xaf"), said("??")) << "longer than needed";
+  EXPECT_EQ(line_of("\xc0\xaf"), said("??")) << "a longer encoding than needed";
   EXPECT_EQ(line_of("\xe0\x80\xaf"), said("???"));
   EXPECT_EQ(line_of("\xf0\x80\x80\xaf"), said("????"));
-  EXPECT_EQ(line_of("\xed\xa0\x80"), said("???")) << "half a pair of UTF-16";
+  EXPECT_EQ(line_of("\xed\xa0\x80"), said("???")) << "half of a surrogate pair of UTF-16";
   EXPECT_EQ(line_of("\xf4\x90\x80\x80"), said("????")) << "beyond the last character";
   EXPECT_EQ(line_of("\xf5\x80\x80\x80"), said("????"));
 }

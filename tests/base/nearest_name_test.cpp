@@ -55,7 +55,7 @@ TEST(NearestName, IsNamedOnlyWhereItIsNear) {
   EXPECT_TRUE(is_near("from_mass", "from_radius"));
   EXPECT_TRUE(is_near("--thread", "--threads"));
   EXPECT_FALSE(is_near("colour", "count"));
-  EXPECT_FALSE(is_near("--foo", "--force")) << "dashes are no likeness";
+  EXPECT_FALSE(is_near("--foo", "--force")) << "dashes must not count as similarity";
   EXPECT_FALSE(is_near("x", "title"));
   constexpr std::array<std::string_view, 3> keys{"width", "height", "left"};
   EXPECT_EQ(expected_one_of(keys, "widht"), "expected one of width, height, left (nearest: width)");

@@ -1,4 +1,4 @@
-// Random numbers: Philox against the vectors published with it, uniforms, the logarithm, normal deviates.
+// Random numbers: Philox compared with its published vectors, uniform deviates, the logarithm, normal deviates.
 #include "core/base/random.hpp"
 
 #include <gtest/gtest.h>
@@ -17,8 +17,8 @@ double uniform_of(std::uint32_t low, std::uint32_t high) {
   return (static_cast<double>(((std::uint64_t{high} << 32) | low) >> 12) + 0.5) * 0x1p-52;
 }
 
-// Random123, tests/kat_vectors, the three lines of philox4x32 with 10 rounds: counter, key, output. The counter is
-// (step, id, stream and attempt), the key the seed, so the whole layout is held too.
+// From Random123, tests/kat_vectors, the three lines of philox4x32 with 10 rounds: counter, key, output. The counter is
+// (step, id, stream and attempt) and the key is the seed, so this fixes the whole layout.
 TEST(Philox, KnownAnswers) {
   const TwoUniforms zeros = uniforms(0, Stream{0}, 0, 0, 0);
   EXPECT_EQ(zeros.a, uniform_of(0x6627e8d5U, 0xe169c58dU));
@@ -44,7 +44,8 @@ TEST(Uniforms, AreAFunctionOfEveryArgument) {
   EXPECT_TRUE(differs(uniforms(7, Stream::position, 3, 11, 3)));
 }
 
-// n = 100000: mean 1/2, variance 1/12, no correlation of the two; four standard errors.
+// n = 100000: the mean is 1/2, the variance 1/12, and the two numbers are uncorrelated; the tolerance is four standard
+// errors.
 TEST(Uniforms, LieInTheOpenUnitIntervalEvenly) {
   constexpr int n = 100000;
   double sum = 0.0;
@@ -88,7 +89,8 @@ TEST(DeterministicLog, AgreesWithTheLibraryOverAllMagnitudes) {
   RecordProperty("worst", std::to_string(worst * 1e16) + "e-16");
 }
 
-// Where log x -> 0, the relative error counts; and at the seam of the reduction, sqrt(1/2) and sqrt(2).
+// Near x = 1, where log x tends to 0, the relative error counts; and at the ends of the reduction, sqrt(1/2) and
+// sqrt(2).
 TEST(DeterministicLog, AgreesNearOneAndAtTheSeams) {
   double worst = 0.0;
   for (int k = 1; k <= 52; ++k) {
@@ -134,7 +136,8 @@ std::vector<double> normal_sample(int pairs) {
   return sample;
 }
 
-// Moments of a standard normal: 0, 1, 0, 3; variances of their estimates 1/n, 2/n, 15/n, 96/n. Four standard errors.
+// Moments of a standard normal deviate: 0, 1, 0, 3; the variances of their estimates are 1/n, 2/n, 15/n, 96/n. The
+// tolerance is four standard errors.
 TEST(Normals, Moments) {
   const std::vector<double> sample = normal_sample(100000);
   const auto n = static_cast<double>(sample.size());
@@ -151,8 +154,8 @@ TEST(Normals, Moments) {
   EXPECT_NEAR(product / (0.5 * n), 0.0, 4.0 * std::sqrt(2.0 / n));
 }
 
-// Kolmogorov and Smirnov: sqrt(n) D exceeds 1.95 with probability 0.001. Chi-square of 100 equally likely bins:
-// mean 99, standard deviation sqrt(198); four of them.
+// The test of Kolmogorov and Smirnov: sqrt(n) D exceeds 1.95 with probability 0.001. Chi-square of 100 equally likely
+// bins: mean 99, standard deviation sqrt(198); the tolerance is four times that.
 TEST(Normals, Distribution) {
   std::vector<double> sample = normal_sample(100000);
   std::sort(sample.begin(), sample.end());
@@ -171,7 +174,7 @@ TEST(Normals, Distribution) {
   EXPECT_NEAR(chi2, 99.0, 4.0 * std::sqrt(198.0));
 }
 
-// Bits of the first deviates, as every IEEE machine must give them; a change here changes every Brownian run.
+// The bits of the first deviates, which every IEEE machine must give; a change here changes every Brownian run.
 TEST(Normals, PinnedBits) {
   const Vec2 first = normals(1, Stream::brownian, 0, 0);
   const Vec2 other = normals(123456789, Stream::velocity, 42, 1000000);

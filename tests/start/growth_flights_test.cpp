@@ -1,4 +1,5 @@
-// The tools of a growth on all cores: after a flight, lists tell each disk of all that its next step has to look at.
+// The parallel tools of growth: after a flight the lists contain, for each disk, all disks that its next step has to
+// look at.
 #include "parallel/start/growth_flights.hpp"
 
 #include <gtest/gtest.h>
@@ -14,8 +15,8 @@ namespace {
 
 constexpr double radius = 0.016, side = 30.0, lack = 0.33, apart_at_end = 0.72;
 
-// Disks at rest at the places of a square lattice whose constant is 1, but for a hole in the middle. There the last two
-// come towards each other until time 1, and disk 1 touches disk 0.
+// Disks at rest on a square lattice of constant 1, with a hole in the middle. There the last two disks approach each
+// other until time 1. Disk 1 touches disk 0.
 State two_meet(const Scene& scene, double apart) {
   std::vector<Disk> disks{{0.5, 0.5, 0.0, 0.0, radius, 1.0}, {0.5 + 2.0 * radius, 0.5, 0.0, 0.0, radius, 1.0}};
   for (int row = 0; row < 30; ++row) {
@@ -33,8 +34,9 @@ State two_meet(const Scene& scene, double apart) {
   return state;
 }
 
-// A step looks further than disks may grow: a gap of which three quarters are less than two of them lack stops both,
-// and lists have to tell of it. Two that come from just beyond the lists' reach show how far that is.
+// A step looks further than disks may grow: a gap limits two disks if three quarters of it are less than the sum of
+// what both lack, and the lists must contain such pairs. Pairs that come from just beyond the reach of the lists test
+// how far that is.
 TEST(GrowthFlights, StepsLookAsFarAsThePlainOneDoes) {
   const Executor executor(1);
   Scene scene = test::scene_of(Method::exact, side, side, 0.0, 1.0);
@@ -42,7 +44,7 @@ TEST(GrowthFlights, StepsLookAsFarAsThePlainOneDoes) {
   for (double apart = 1.2; apart < 2.6; apart += 0.02) {
     State state = two_meet(scene, apart);
     const GrowthTools tools = parallel_growth(executor, {1});
-    // Disk 0 is to grow, and disk 1 keeps it from that: it lacks as much after the step.
+    // Disk 0 is to grow, but disk 1 prevents it, so it lacks as much after the step as before.
     std::vector<double> target = state.disks.radius;
     target[0] += lack;
     ASSERT_EQ(tools.step(state.disks, scene.box, target).most_lack, lack);
@@ -51,7 +53,7 @@ TEST(GrowthFlights, StepsLookAsFarAsThePlainOneDoes) {
     Disks plain = state.disks;
     grow_step(plain, scene.box, target);
     tools.step(state.disks, scene.box, target);
-    ASSERT_EQ(state.disks.id, plain.id) << "by lists";
+    ASSERT_EQ(state.disks.id, plain.id) << "the step must use the lists, which do not sort disks";
     EXPECT_EQ(state.disks.radius, plain.radius) << apart;
     const std::size_t last = by_id(plain).back();
     EXPECT_NEAR(plain.radius[last], radius + 0.375 * (apart_at_end - 2.0 * radius), 1e-9) << "half of the usable gap";

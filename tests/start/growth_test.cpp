@@ -1,5 +1,5 @@
-// Growth of initial states: no overlap to the last bit, the radii asked for, the same bits by both ways and at any
-// scale, and a clear message where the disks jam.
+// Growth of initial states: no overlap to the last bit, the radii wanted, the same bits from both ways and at any
+// scale, and a clear message if the disks jam.
 #include "core/start/growth.hpp"
 
 #include <fmt/format.h>
@@ -44,7 +44,7 @@ std::string group(int count, std::string_view radius) {
   return fmt::format("[[disks]]\ncount = {}\npositions = \"growth\"\nradius = {}\nmass = 1\n", count, radius);
 }
 
-// All disks inside, none nearer than contact, in the very arithmetic of the contact test.
+// All disks are inside, and none is closer to another than contact, by the arithmetic of the contact test itself.
 void expect_free(const State& state, const Domain& box) {
   const Disks& d = state.disks;
   for (std::size_t i = 0; i < d.size(); ++i) {
@@ -73,7 +73,7 @@ struct Case {
   std::string box, disks;
 };
 
-// Mixtures, two groups, equal disks, a huge disk among small ones; walls, sinks, periodic sides; a few disks only.
+// Mixtures, two groups, equal disks, a huge disk among small ones; walls, sinks, periodic sides; very few disks.
 std::vector<Case> cases() {
   const std::string torus = periodic;
   return {{"mixed", torus + "packing_fraction = 0.8", group(120, "{ uniform = [1, 5] }")},
@@ -113,7 +113,7 @@ TEST(LongGrowth, SameBitsPlainAndParallel) {
   for (const Case& c : cases()) {
     const Scene scene = scene_from(text_of(c.box, c.disks));
     const State expected = initial_state(scene);
-    const bool all = c.name == std::string("walls");  // threads to spare cost more time than they are worth nine times
+    const bool all = c.name == std::string("walls");  // all numbers of threads in one case only, to save time
     for (const int threads : all ? std::vector{1, 2, 3, 8} : std::vector{2}) {
       const State state = grown(scene, threads, threads == 1 ? 1 : 300);
       EXPECT_EQ(state.disks.x, expected.disks.x) << c.name << ", " << threads;
@@ -122,8 +122,8 @@ TEST(LongGrowth, SameBitsPlainAndParallel) {
   }
 }
 
-// Fixed disks that overlap each other and stick out, one that is drawn, a line with a corner, a sink; denser than
-// random addition gets anywhere.
+// Fixed disks that overlap each other and reach out of the box, a fixed disk that is placed at random, a polyline, a
+// sink; denser than random addition can reach.
 std::vector<Case> obstructed_cases() {
   const std::string pegs =
       "[[disks]]\nfixed = true\ncount = 5\npositions = [[0.5, 9.0], [20.0, 20.0], [22.0, 21.0], [12.0, 30.0], [33.0, "
@@ -156,7 +156,7 @@ TEST(LongGrowth, KeepsClearOfObstaclesToTheLastBit) {
       for (const Obstacle& o : state.obstacles) {
         if (!scene.box.has_moving_side()) {
           EXPECT_LE(gap_to(o, d.x[i], d.y[i], d.radius_of(i), box).beyond, 0.0) << i;
-        } else {  // whose coordinates are moved by the side's place
+        } else {  // whose coordinates are shifted by the side's place
           EXPECT_LE(gap_to(o, d.x[i], d.y[i], d.radius_of(i), box).beyond, 1e-12) << i;
         }
       }
@@ -172,7 +172,7 @@ TEST(LongGrowth, KeepsClearOfObstaclesToTheLastBit) {
   }
 }
 
-// A disk beside a peg gets three quarters of the gap, all of it, as the peg does not grow; of that to a wall likewise.
+// A disk beside a peg grows by three quarters of the whole gap, as the peg does not grow; the same at a wall.
 TEST(Growth, StepTakesTheGapsToObstacles) {
   Domain box;
   box.width = box.height = 40.0;
@@ -194,14 +194,14 @@ TEST(Growth, StepTakesTheGapsToObstacles) {
   EXPECT_TRUE(grow_step(d, box, {9.0, 9.0, 1.5}).overlap);
 }
 
-// A gap as small as the rounding of coordinates is left alone: 2^-46 of the longer side.
+// Gaps as small as the rounding of coordinates, 2^-46 of the longer side, are not used.
 TEST(Growth, LeavesGapsThatRoundingMayHaveMade) {
   EXPECT_EQ(usable_gap(-1.0, 64.0), 0.0);
   EXPECT_EQ(usable_gap(0x1p-40, 64.0), 0.0);
   EXPECT_EQ(usable_gap(0x1.8p-40, 64.0), 0.75 * 0x1.8p-40);
 }
 
-// A disk that touches a wall lies within it; by the last bit further it does not. Periodic sides hold nothing back.
+// A disk that touches a wall is within it; one further by the last bit is not. Periodic sides do not matter.
 TEST(Growth, DisksLieWithinWallsToTheLastBit) {
   const Domain walls = test::box_of(8.0, 4.0);
   for (const Vec2 p : {Vec2{1.0, 1.0}, Vec2{7.0, 3.0}}) {
@@ -230,7 +230,7 @@ void expect_same_step(const GrowthTally& tally, const Disks& d, const GrowthTall
   }
 }
 
-// Of disks that lack something, and of such as have their radii, of which two may overlap.
+// Some disks lack something, others have their radii, and of these two may overlap.
 TEST(Growth, StepsByCellsAndByListsDoWhatThePlainOneDoes) {
   test::Draws draws(6);
   const Executor executor(2, 100);
@@ -259,7 +259,8 @@ TEST(Growth, StepsByCellsAndByListsDoWhatThePlainOneDoes) {
   EXPECT_EQ(overlaps, 4);
 }
 
-// The plain step against all pairs: by its definition, each gap shared by what both ends lack.
+// The plain step compared with its definition over all pairs: each gap is divided in proportion to what both disks
+// lack.
 TEST(Growth, StepTakesTheLeastOfAllGaps) {
   test::Draws draws(5);
   for (int k = 0; k < 20; ++k) {
@@ -325,7 +326,8 @@ TEST(Growth, JamsWithAClearMessage) {
   EXPECT_THAT(test::complaint(text + "[growth]\nsteps = 5\n"), HasSubstr("\"growth\" ends at packing fraction 0."));
 }
 
-// Such a disk stays a little too small for ever. Across periodic sides it meets nothing, and a little play is enough.
+// A disk that fills the box stays a little too small for ever. Across periodic sides it meets nothing, and then a
+// little room is enough.
 TEST(Growth, RefusesDisksThatFillTheBox) {
   const auto said = [](const std::string& box, const std::string& radius) {
     return test::complaint(text_of(box, group(3, "0.2") + group(2, radius)));
@@ -340,8 +342,8 @@ TEST(Growth, RefusesDisksThatFillTheBox) {
   EXPECT_EQ(said("width = 11.0\nheight = 2.0\nbottom = \"periodic\"\ntop = \"periodic\"", "0.5"), "");
 }
 
-// Each flight is a run of its own: crowded windows of one before do not count. One whose time stands still, as that of
-// disks that others enclose does, is a jam; the group that grows is blamed.
+// Each flight is a run of its own: crowded windows of earlier flights do not count. If the time of a flight stands
+// still, as for disks that others enclose, this is reported as a jam of the group that grows.
 TEST(Growth, JamsWhereTheTimeOfAFlightStandsStill) {
   const std::string fixed = "[[disks]]\nfixed = true\ncount = 1\npositions = [[5, 5]]\nradius = 1\n";
   const Scene scene = scene_from(text_of("width = 10\nheight = 10", fixed + group(60, "0.6")));
@@ -359,7 +361,7 @@ TEST(Growth, JamsWhereTheTimeOfAFlightStandsStill) {
   };
   try {
     initial_state(scene, place_at_random, tools);
-    ADD_FAILURE() << "grown in " << flights << " flights";
+    ADD_FAILURE() << "no jam was reported; grown in " << flights << " flights";
   } catch (const InputError& error) {
     const std::string message = error.what();
     EXPECT_THAT(message, HasSubstr("disks.1.positions: \"growth\" jams at packing fraction 0."));
@@ -387,7 +389,7 @@ TEST(Growth, RefusesWhatItCannotDo) {
               HasSubstr("growth.slow: unknown key"));
 }
 
-// The scene written out grows the same disks.
+// The scene, written out and read again, grows the same disks.
 TEST(Growth, SurvivesBeingWrittenOut) {
   const Scene scene = scene_from(text_of(std::string(periodic) + "packing_fraction = 0.6",
                                          group(20, "1") + group(20, "2"), "[growth]\nslowness = 3\nsteps = 200\n"));

@@ -1,4 +1,4 @@
-// States that were grown are states of the fluid: its pressure is that of disks placed otherwise.
+// Grown states are states of the fluid: their pressure is that of disks placed in other ways.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ Scene fluid(std::string_view positions, std::string_view radius, double packing,
                   packing, disks, positions, radius, t_end));
 }
 
-// Z = P V / (N kT) from the virial, in blocks after one to forget the start.
+// Z = P V / (N kT) from the virial, in blocks, after a first one to forget the start.
 SampleMean compressibility(std::string_view positions, std::string_view radius, double packing, double block) {
   constexpr int blocks = 24;
   const Scene scene = fluid(positions, radius, packing, 1e9);
@@ -41,7 +41,7 @@ SampleMean compressibility(std::string_view positions, std::string_view radius, 
         1.0 + (engine->state().counters.virial - before) / (2.0 * (engine->state().time - start) * disks * kt);
     if (k >= 0) found.push_back(z);
   }
-  EXPECT_GT(engine->state().counters.collisions, 20.0 * disks * blocks) << "too short to say anything";
+  EXPECT_GT(engine->state().counters.collisions, 20.0 * disks * blocks) << "the run is too short for a comparison";
   EXPECT_LE(max_overlap(engine->state().disks, scene.box), 1e-13);
   return sample_mean(found);
 }
@@ -50,7 +50,7 @@ void expect_same(const SampleMean& grown, const SampleMean& other, const char* w
   fmt::print("{}: Z grown {:.4f} +- {:.4f}, other start {:.4f} +- {:.4f}\n", what, grown.mean, grown.standard_error(),
              other.mean, other.standard_error());
   EXPECT_NEAR(grown.mean, other.mean, 3.0 * std::hypot(grown.standard_error(), other.standard_error())) << what;
-  EXPECT_LT(grown.standard_error(), 0.01 * grown.mean) << "too short to say anything";
+  EXPECT_LT(grown.standard_error(), 0.01 * grown.mean) << "the run is too short for a comparison";
 }
 
 TEST(GrownFluid, HasThePressureOfAMeltedLattice) {

@@ -1,4 +1,4 @@
-// Growth by its tools: what the flights see of sides and obstacles, how long they last, and when growth ends.
+// Growth, given its tools: how flights treat sides and obstacles, how long they last, and when growth ends.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -19,7 +19,7 @@ using test::replaced;
 using test::scene_from;
 using testing::HasSubstr;
 
-// Between four walls, around a peg and an inner wall: all elastic and at rest.
+// A box with four walls, a peg and an inner wall, all elastic and at rest.
 const std::string plain = R"(seed = 3
 [box]
 width = 24.0
@@ -55,7 +55,7 @@ void expect_same_places(const std::string& text) {
   }
 }
 
-// Whatever sides and obstacles do to disks in the run: while these grow, all is a wall, elastic, and stands still.
+// Whatever sides and obstacles are in the run: during growth all of them are elastic walls at rest.
 TEST(HardGrowth, SidesAndObstaclesAreElasticWallsAtRest) {
   expect_same_places(plain);
   expect_same_places(replaced(plain, "wall_restitution = 1.0", "wall_restitution = 0.3"));
@@ -68,8 +68,8 @@ TEST(HardGrowth, SidesAndObstaclesAreElasticWallsAtRest) {
   expect_same_places(replaced(plain, "kind = \"wall\"", "motion = { velocity = [0.5, 0.0] }"));
 }
 
-// A peg takes 0.7 of the box, the disks 0.15: half of what is left, in four corners. Random addition at 0.25 of the box
-// finds no room
+// A peg takes 0.7 of the box. The disks take 0.15, half of the rest, in the four corners, so random addition at 0.25 of
+// the box would find no room.
 TEST(HardGrowth, StartsAtASmallShareOfWhatPegsLeave) {
   const std::string text =
       "seed = 5\n[box]\nwidth = 20.0\nheight = 20.0\n[[disks]]\nfixed = true\ncount = 1\npositions = [[10.0, 10.0]]\n"
@@ -77,13 +77,13 @@ TEST(HardGrowth, StartsAtASmallShareOfWhatPegsLeave) {
   EXPECT_EQ(complaint(text), "");
 }
 
-// Tools that do nothing but note what they are asked for.
+// Tools that only record their calls.
 struct Notes {
-  std::vector<double> flights;  // their lengths
-  Count events = 0;             // that each flight has
+  std::vector<double> flights;  // lengths of the flights
+  Count events = 0;             // collisions in each flight
   std::function<GrowthTally(std::size_t)> tally;
   std::size_t steps = 0;
-  Disks seen;  // of the last flight
+  Disks seen;  // disks of the last flight
 
   GrowthTools tools() {
     return {[this](const Scene& scene, State state, const std::function<void()>&) {
@@ -121,7 +121,7 @@ std::string complaint_of(Notes& notes, const std::string& text) {
   return "";
 }
 
-// All have their radii, but two overlap by rounding: they fly on until none do.
+// All disks have their radii, but two overlap by rounding: flights go on until none do.
 TEST(HardGrowth, EndsWhereNoneOverlap) {
   Notes notes;
   notes.tally = [](std::size_t step) { return tally_of(0, step < 3, 0.0); };
@@ -130,7 +130,7 @@ TEST(HardGrowth, EndsWhereNoneOverlap) {
   EXPECT_EQ(notes.flights.size(), 3U);
 }
 
-// So many steps of growth as [growth] has, a flight before each; the next look is the end.
+// There are as many steps as [growth] allows, with a flight before each.
 TEST(HardGrowth, GivesUpAfterTheStepsOfTheScene) {
   Notes notes;
   notes.tally = [](std::size_t step) { return tally_of(1, false, std::pow(0.5, static_cast<double>(step))); };
@@ -138,7 +138,7 @@ TEST(HardGrowth, GivesUpAfterTheStepsOfTheScene) {
   EXPECT_EQ(notes.flights.size(), 7U);
 }
 
-// It stalls where a hundred steps leave more than 0.98 of what was lacking, and goes on where they leave less.
+// Growth stalls if after a hundred steps more than 0.98 of what was lacking is left, and goes on if less is left.
 TEST(HardGrowth, StallsWhereLittleIsGained) {
   const std::string text = replaced(few, "steps = 7", "steps = 250");
   for (const double share : {0.985, 0.975}) {
@@ -151,8 +151,9 @@ TEST(HardGrowth, StallsWhereLittleIsGained) {
   }
 }
 
-// 0.02 mean distances times the slowness, less where a disk would have more than 16 collisions times the slowness: half
-// as much a flight, and back to it by doubling. Ten disks have 16 * 3 * 10 / 2 = 240 of them together.
+// A flight lasts 0.02 mean distances times the slowness, or less if disks would have more than 16 collisions each times
+// the slowness: flights are halved at most, and then doubled again. For ten disks the limit is 16 * 3 * 10 / 2 = 240
+// collisions together.
 TEST(HardGrowth, FlightsAreAsLongAsCollisionsAllow) {
   Notes notes;
   notes.tally = [&](std::size_t step) {
@@ -164,15 +165,15 @@ TEST(HardGrowth, FlightsAreAsLongAsCollisionsAllow) {
   EXPECT_EQ(notes.flights,
             (std::vector{most, 0.5 * most, 0.25 * most, 0.125 * most, 0.25 * most, 0.5 * most, most, most}));
   Notes busy;
-  busy.events = 300;  // 240 are wanted: four fifths of the time
+  busy.events = 300;  // 240 are wanted, so the next flight is four fifths as long
   busy.tally = [](std::size_t step) { return tally_of(step < 2 ? 1 : 0, false, 1.0); };
   EXPECT_EQ(complaint_of(busy, few), "");
   ASSERT_EQ(busy.flights.size(), 2U);
   EXPECT_DOUBLE_EQ(busy.flights[1], 0.8 * most);
 }
 
-// Velocities are normal deviates in units of the mean distance sqrt(width height / n), of the scene's seed. The mean of
-// 2 n squares of such deviates has a standard deviation of sqrt(2 / (2 n)); four of them.
+// Velocities are normal deviates in units of the mean distance sqrt(width height / n), from the scene's seed. The mean
+// of 2 n squares of such deviates has a standard deviation of sqrt(2 / (2 n)); the tolerance is four times that.
 TEST(HardGrowth, FliesAtTheMeanDistanceInAUnitOfTime) {
   const auto velocities = [](const std::string& text) {
     Notes notes;

@@ -1,4 +1,4 @@
-// Sizes, velocities, columns, and independence of units; where disks stand is placement_test's.
+// Sizes, velocities and columns of initial states, and independence of units; positions are tested in placement_test.
 #include "core/start/initial_state.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ using test::scene_from;
 using test::Units;
 using testing::ElementsAre;
 
-// A roomy box with groups as given.
+// A large box with these groups.
 Scene scene_with(std::string_view groups, std::uint64_t seed = 3) {
   return scene_from(fmt::format("seed = {}\n[box]\nwidth = 200\nheight = 100\n{}\n[run]\nt_end = 1\n", seed, groups));
 }
@@ -55,7 +55,7 @@ TEST(Sizes, EachColumnExistsOnlyWhereDisksDiffer) {
   EXPECT_EQ(radii.disks.radius.size(), 200U);
   EXPECT_TRUE(radii.disks.mass.empty());
   const State list = initial_state(scene_with(group("[0.5, 0.5]", "{ uniform = [2, 2] }", 2)));
-  EXPECT_TRUE(list.disks.radius.empty()) << "a list of equal radii";
+  EXPECT_TRUE(list.disks.radius.empty()) << "equal radii, given as a list, must make no column";
   EXPECT_TRUE(list.disks.mass.empty());
   EXPECT_EQ(list.disks.common_mass, 2.0);
 }
@@ -69,14 +69,14 @@ TEST(Sizes, WithoutDisksTheSourceSaysThem) {
   EXPECT_EQ(s.sources.size(), 1U);
   EXPECT_EQ(s.next_id, 0U);
   EXPECT_TRUE(initial_state(scene_with(group("1", "1", 0))).disks.empty());
-  // Fixed disks, which leave the others, say nothing of them.
+  // Fixed disks are no longer among the disks, and must not affect their columns.
   const std::string pegs = "[[disks]]\nfixed = true\ncount = 2\npositions = [[1, 1], [9, 9]]\nradius = [1.0, 2.0]\n";
   const State beside =
       initial_state(scene_with(pegs + "[[sources]]\nside = \"left\"\nrate = 1\nradius = 0.5\nmass = 3.0"));
   EXPECT_TRUE(beside.disks.empty() && beside.disks.radius.empty() && beside.disks.mass.empty());
   EXPECT_EQ(beside.disks.common_radius, 0.5);
   EXPECT_EQ(beside.disks.common_mass, 3.0);
-  EXPECT_EQ(beside.next_id, 2U) << "as ids are never given twice";
+  EXPECT_EQ(beside.next_id, 2U) << "ids are never reused";
 }
 
 TEST(Sizes, UniformOnesLieInTheirRangeAndFillIt) {
@@ -136,7 +136,7 @@ TEST(Velocities, UniformOnesHaveEitherSign) {
   EXPECT_NEAR(positive, 250, 4 * std::sqrt(125.0));
 }
 
-// Each group by itself: no mean velocity, kinetic energy count * T, whatever the masses.
+// Each group separately has mean velocity 0 and kinetic energy count * T, for any masses.
 TEST(Velocities, MaxwellIsExactInEachGroup) {
   Draws draws(31);
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -169,7 +169,7 @@ TEST(Velocities, MaxwellIsNormal) {
   EXPECT_NEAR(fourth / 20000.0, 3.0, 4 * std::sqrt(96.0 / 20000.0)) << "fourth moment of a normal deviate";
 }
 
-// A flow across the box is at rest half-way up, and comes on top of the velocities that the groups have.
+// A shear flow is at rest half-way up, and is added to the velocities of the groups.
 TEST(Velocities, AShearFlowIsAtRestHalfWayUp) {
   const State s = initial_state(scene_from(
       "[box]\nwidth = 20\nheight = 10\nleft = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\n"
@@ -179,8 +179,8 @@ TEST(Velocities, AShearFlowIsAtRestHalfWayUp) {
   EXPECT_THAT(s.disks.vy, ElementsAre(2.0, 4.0, 6.0));
 }
 
-// Spins of a temperature: the mean of I w^2 is T (1 +- sqrt(2 / n)), I = q m r^2, whatever the disk; a list is taken as
-// it is.
+// Spins drawn by temperature: the mean of I w^2 is T (1 +- sqrt(2 / n)) with I = q m r^2, for any disks; a list of
+// spins is taken as it is.
 TEST(Spins, ThermalOnesGoByTheMomentOfInertia) {
   const Scene scene = scene_with(group("1", "1"));
   const double one = thermal_spin(scene, 2.0, 5, 0.5, 1.0, 1.0);
@@ -200,7 +200,7 @@ TEST(Spins, ThermalOnesGoByTheMomentOfInertia) {
   EXPECT_THAT(initial_state(rough).disks.spin, ElementsAre(7.0, 7.0, 1.0, -2.0, 3.0));
 }
 
-// Of a group the mean of I w^2 is the temperature to the last digits, beside what other groups have.
+// For each group the mean of I w^2 is the temperature to the last digits, whatever other groups have.
 TEST(Spins, OfAGroupHaveItsTemperature) {
   const State s = initial_state(
       scene_with("[physics]\nroughness = { tangential_restitution = 0.5 }\n" + group("1", "1", 5, "spin = 7.0") +
@@ -224,7 +224,7 @@ TEST(InitialState, SameSceneSameBits) {
   EXPECT_NE(state_hash(initial_state(scene_with(text)).disks), state_hash(initial_state(scene_with(text, 4)).disks));
 }
 
-// The bits themselves: another compiler, another machine or a changed draw would show here.
+// The bits themselves are compared: another compiler, another machine or a changed draw would show here.
 TEST(InitialState, Golden) {
   const std::string mixed =
       group("{ uniform = [1, 3] }", "{ from_radius = 0.3 }", 200, "velocities = { maxwell = 2 }") +
@@ -265,7 +265,7 @@ TEST(InitialState, SameBitsInAnyUnits) {
   }
 }
 
-// The box that packing_fraction gives scales with the radii too.
+// The box computed from packing_fraction must scale with the radii.
 TEST(InitialState, SameBoxInAnyUnits) {
   const auto box = [](double unit) {
     return scene_from(
@@ -280,7 +280,7 @@ TEST(InitialState, SameBoxInAnyUnits) {
   }
 }
 
-// For which neither disks are placed that do not matter nor any grow.
+// Only obstacles are wanted: neither must disks be placed that do not affect them, nor must any grow.
 TEST(InitialState, HasTheObstaclesThatAreAskedForAlone) {
   const std::string pegs = "[[disks]]\ncount = 2\nfixed = true\nradius = { uniform = [1, 2] }\npositions = ";
   const std::string box = "[box]\nwidth = 40\nheight = 30\n";
@@ -307,7 +307,7 @@ TEST(InitialState, HasTheObstaclesThatAreAskedForAlone) {
       }
     }
   }
-  // Many disks, which are not to grow twice: this would take minutes.
+  // There are many disks, which would take minutes to grow; so they must not be grown here.
   const Scene many = scene_from(
       "[box]\nwidth = 400\nheight = 400\n[[disks]]\ncount = 160000\npositions = \"growth\"\n"
       "radius = 0.5\nmass = 1\n" +
@@ -315,7 +315,8 @@ TEST(InitialState, HasTheObstaclesThatAreAskedForAlone) {
   EXPECT_EQ(obstacles_of(many).size(), 2U);
 }
 
-// A drift comes on top of velocities that are given one by one, too; the upper end of a periodic side is the lower one.
+// A drift is added to listed velocities, too; and a position at the upper end of a periodic side is put at its lower
+// end.
 TEST(Positions, GivenOnesDriftAndWrap) {
   const State s = initial_state(
       scene_from("[box]\nwidth = 20\nheight = 10\nleft = \"periodic\"\nright = \"periodic\"\n[[disks]]\ncount = 2\n"

@@ -16,7 +16,7 @@ using test::Draws;
 using test::Periodic;
 using test::periodic_along;
 
-// Least distance of two sites, images included; infinite for one site.
+// The least distance of two sites, including images; infinite for a single site.
 double least_distance(const Domain& box, const std::vector<Vec2>& sites) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < sites.size(); ++i) {
@@ -63,7 +63,7 @@ TEST(SquareLattice, FillsASquareEvenly) {
   EXPECT_EQ(square_capacity(box_of(10, 10, Periodic::both), 1.0), 100U);
 }
 
-// Fewer disks than sites: disk k is on site floor(k sites / disks), so that no end of the box is left empty.
+// With fewer disks than sites disk k is on site floor(k sites / disks), so that no end of the box stays empty.
 TEST(SquareLattice, SpreadsFewDisksOverAllSites) {
   const Lattice nine{3, 3, 1.0, 1.0, 0.5, 0.5, 0.0};
   const std::vector<Vec2> four = sites_of(nine, 4);
@@ -81,7 +81,7 @@ TEST(HexagonalLattice, IsRegularInAFittingBox) {
   ASSERT_TRUE(lattice.has_value());
   EXPECT_EQ(lattice->columns, 10U);
   EXPECT_EQ(lattice->rows, 10U);
-  EXPECT_NEAR(least_distance(box, sites_of(*lattice, 100)), 1.0, 1e-12) << "the closest packing there is";
+  EXPECT_NEAR(least_distance(box, sites_of(*lattice, 100)), 1.0, 1e-12) << "the closest packing";
   EXPECT_FALSE(hexagonal_lattice(box, 101, 1.0).has_value());
 }
 
@@ -92,7 +92,7 @@ TEST(HexagonalLattice, ClosesThroughPeriodicSides) {
   EXPECT_DOUBLE_EQ(lattice->spacing_y * static_cast<double>(lattice->rows), 9.0);
 }
 
-// As far from the left side on even rows as from the right side on odd ones, so that no disk stands on a side.
+// Even rows are as far from the left side as odd rows from the right side, so that no disk is on a side.
 TEST(HexagonalLattice, IsInTheMiddleOfAPeriodicWidth) {
   const auto lattice = hexagonal_lattice(box_of(8, 30, Periodic::x), 40, 1.0);
   ASSERT_TRUE(lattice.has_value());
@@ -103,7 +103,7 @@ TEST(HexagonalLattice, IsInTheMiddleOfAPeriodicWidth) {
   EXPECT_DOUBLE_EQ(lattice_site(*lattice, lattice->columns + last, all).x, 8.0 - 0.25 * lattice->spacing_x);
 }
 
-// In a narrow box disks touch one side and the other by turns, and the disk of the row below.
+// In a narrow box disks touch the two sides in turn, and the disk of the row below.
 TEST(HexagonalLattice, ZigzagsBetweenNarrowSides) {
   const double rise = std::sqrt(1.0 - 0.2 * 0.2);
   const Domain box = box_of(1.2, 1.0 + 4.0 * rise + 1e-9);
@@ -121,7 +121,7 @@ TEST(HexagonalLattice, HoldsMoreThanTheSquareInALargeBox) {
   EXPECT_GT(hexagonal_capacity(box_of(50, 50), 1.0), square_capacity(box_of(50, 50), 1.0));
 }
 
-// In any box, up to the last disk that is said to fit, disks stand clear of each other and of the sides.
+// In any box, up to the capacity computed for it, disks neither overlap each other nor the sides.
 TEST(Lattices, SoundInAnyBoxUpToTheirCapacity) {
   Draws draws(21);
   for (int k = 0; k < 400; ++k) {

@@ -1,4 +1,4 @@
-// Random sequential addition in parallel: the bits of the plain one, whatever the threads and the blocks.
+// Random sequential addition in parallel has the bits of the plain version, for any number of threads and any blocks.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -33,8 +33,8 @@ constexpr const char* periodic =
     "left = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\n";
 constexpr const char* walls = "aspect = 3\n";
 
-// Loose and close to jamming (0.547), where the open cells are listed, and anew; mixed sizes, in classes; disks that
-// stand already; a few only; a box narrower than a handful of cells.
+// Dilute, and close to jamming (0.547), where open cells are listed and listed again; mixed sizes, in classes; disks
+// already placed; few disks; a box only a few cells wide.
 const std::vector<Case> cases{
     {"loose", periodic,
      "packing_fraction = 0.3\n[[disks]]\ncount = 20000\npositions = \"random\"\nradius = 1\nmass = 1"},
@@ -65,7 +65,8 @@ TEST(ParallelPlacement, SameBitsAsThePlainSearch) {
   }
 }
 
-// So many that the list of free places, at most four a disk, is refined in place, a quarter of a million at a time.
+// So many disks that the list of free places, at most four per disk, is refined in place, a quarter of a million at a
+// time.
 TEST(LongParallelPlacement, SameBitsWhereTheListIsRefinedInParts) {
   const Scene scene = scene_from(scene_text(
       periodic, "packing_fraction = 0.53\n[[disks]]\ncount = 100000\npositions = \"random\"\nradius = 1\nmass = 1"));

@@ -1,4 +1,4 @@
-// Where the disks of a scene stand: no overlap by comparison of all pairs, inside the box, and the densities reached.
+// Positions of the disks of a scene: no overlap by comparison of all pairs, inside the box, and the densities reached.
 #include "core/start/placement.hpp"
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ using test::Draws;
 using test::scene_from;
 using testing::HasSubstr;
 
-// All pairs: the oracle. slack is the share of the sum of radii that may overlap.
+// Compares all pairs. slack: the share of the sum of radii by which disks may overlap.
 void expect_apart(const State& state, const Domain& box, double slack) {
   const Disks& d = state.disks;
   for (std::size_t i = 0; i < d.size(); ++i) {
@@ -87,7 +87,7 @@ TEST(RandomPlacement, NeitherOverlapsNorLeavesTheBox) {
 
 TEST(RandomPlacement, ReachesHighDensitiesByOpenCells) {
   for (const bool periodic : {true, false}) {
-    // Walls keep centres off, so the same fraction is harder to reach between walls.
+    // Centres keep away from walls, so the same fraction is harder to reach between walls.
     const double fraction = periodic ? 0.53 : 0.51;
     const Scene scene = scene_from(box_text(fmt::format("packing_fraction = {}", fraction), periodic, periodic) +
                                    group("\"random\"", "0.5", 2000));
@@ -106,7 +106,7 @@ TEST(RandomPlacement, SaysWhenTheDensityCannotBeReached) {
   }
 }
 
-// Jamming of random sequential addition: 0.547 (Feder 1980), here for a finite number of trials.
+// Random sequential addition jams at 0.547 (Feder 1980), here with a finite number of trials.
 TEST(RandomPlacement, JamsWhereItShould) {
   const std::string message =
       test::complaint(box_text("packing_fraction = 0.6", true, true) + group("\"random\"", "0.5", 4000));
@@ -141,26 +141,26 @@ TEST(RandomPlacement, AvoidsDisksOfOtherGroups) {
     SCOPED_TRACE(text);
     const Scene scene = scene_from(text);
     const State state = initial_state(scene);
-    EXPECT_EQ(state.disks.x[60], 20.0) << "ids follow the file, whatever is placed first";
+    EXPECT_EQ(state.disks.x[60], 20.0) << "ids follow the order of the file, whichever group is placed first";
     expect_apart(state, scene.box, 0.0);
     expect_inside(state, scene.box);
   }
 }
 
-// What the search has learnt of places for large disks is nothing to small ones: near the jamming of the large ones, at
-// 0.53, there is room for many.
+// Places that the search found closed for large disks may be open for small ones: near the jamming of the large disks,
+// at 0.53, there is room for many small ones.
 TEST(RandomPlacement, SmallDisksFindRoomWhereLargeOnesFindNone) {
   const Scene scene = scene_from(box_text("width = 15.4\nheight = 15.4", true, true) + group("\"random\"", "0.5", 160) +
                                  group("\"random\"", "0.05", 960));
   const State state = initial_state(scene);
   expect_apart(state, scene.box, 0.0);
-  // All over what is left: half of them, give or take, in either half of the box.
+  // The small disks are spread over all of the free space: about half of them are in either half of the box.
   int left = 0;
   for (std::size_t i = 160; i < 1120; ++i) left += state.disks.x[i] < 7.7 ? 1 : 0;
   EXPECT_NEAR(left, 480, 120);
 }
 
-// A centre is a radius or more from every point of an inner wall: 400 disks around two that cross.
+// Centres are at least a radius away from every point of an inner wall: 400 disks around two walls that cross.
 TEST(RandomPlacement, KeepsClearOfInnerWalls) {
   const Scene scene =
       scene_from(box_text("width = 30\nheight = 30", true, false) + group("\"random\"", "0.5", 400) +
@@ -179,7 +179,7 @@ TEST(RandomPlacement, KeepsClearOfInnerWalls) {
   }
 }
 
-// Fixed disks stand before others find their places, wherever the scene lists them. They are obstacles at the end.
+// Fixed disks are placed before the others, wherever the scene lists them, and become obstacles.
 TEST(RandomPlacement, KeepsClearOfFixedDisks) {
   const Scene scene = scene_from(box_text("width = 30\nheight = 30", true, false) + group("\"random\"", "0.5", 300) +
                                  "[[disks]]\nfixed = true\ncount = 3\npositions = [[1, 4], [15, 15], [22, 29]]\n"
@@ -219,7 +219,7 @@ TEST(LatticePlacement, FitsDenseBoxesWithMixedRadii) {
   }
 }
 
-// The largest disk of a group says how far apart its sites are, though it be the last.
+// The largest disk of a group determines the distance of sites, even if it is the last.
 TEST(LatticePlacement, HasRoomForTheLargestDisk) {
   for (const char* const positions : {"\"square\"", "\"hexagonal\""}) {
     EXPECT_THAT(
@@ -263,7 +263,7 @@ TEST(ListedPlacement, UpperEndOfAPeriodicAxisIsTheLower) {
   EXPECT_EQ(initial_state(scene).disks.y[0], 0.0);
 }
 
-// The first overlap found is an overlap, and none is missed: against all pairs, lists with many near misses.
+// The first overlap reported is one, and none is missed: compared with all pairs, in lists with many near misses.
 TEST(ListedPlacement, EveryOverlapIsFound) {
   Draws draws(43);
   int overlapping = 0;
@@ -304,7 +304,7 @@ TEST(ListedPlacement, EveryOverlapIsFound) {
   EXPECT_LT(overlapping, 350);
 }
 
-// No point that is free is ever in a closed cell.
+// No free point is ever in a closed cell.
 TEST(OpenCells, NeverCloseWhatIsFree) {
   Draws draws(44);
   for (int k = 0; k < 40; ++k) {
@@ -336,11 +336,11 @@ TEST(OpenCells, NeverCloseWhatIsFree) {
       }
       closed += cells.is_open(x, y) ? 0 : 1;
     }
-    EXPECT_GT(closed, 100) << "and most of what is taken is closed";
+    EXPECT_GT(closed, 100) << "most of the occupied cells must be closed";
   }
 }
 
-// Refining a list never loses a free place, and ends with little else than free places in it.
+// Refining the list never loses a free place, and in the end hardly anything else is in it.
 TEST(VoxelList, KeepsWhatIsFreeWhenRefined) {
   Draws draws(45);
   for (int k = 0; k < 20; ++k) {

@@ -1,4 +1,4 @@
-// Where and how groups start: regions, drift, distributions of sizes, and what is said of those that cannot be.
+// Regions in which groups start, drift, distributions of sizes, and the messages for impossible ones.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -34,7 +34,8 @@ std::string group(int count, const std::string& positions, const std::string& mo
 constexpr const char* all_periodic =
     "left = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\n";
 
-// The same bits from one thread and from three, no overlap, and nothing beyond a side.
+// The start of a scene, which must have the same bits from one thread and from three, no overlap, and no disk beyond a
+// side.
 Disks start_of(const std::string& text) {
   const Scene scene = scene_from(text);
   const State state = initial_state(scene);
@@ -58,7 +59,8 @@ void expect_in_circle(const Disks& d, std::size_t first, std::size_t last, Vec2 
 }
 
 TEST(StartRegion, RandomDisksFillTheirOwnAsDenselyAsABox) {
-  // Packing fraction 0.47 within each region, which only a search of the last free places reaches; the rest is empty.
+  // A packing fraction of 0.47 within each region needs the search of the last free places; the rest of the box is
+  // empty.
   const Disks d =
       start_of(scene_with(group(60, "random", "region = [2.0, 3.0, 12.0, 13.0]\n") +
                           group(60, "random", "region = { circle = [28.0, 20.0, 5.65] }\n") + group(30, "random", "")));
@@ -68,7 +70,8 @@ TEST(StartRegion, RandomDisksFillTheirOwnAsDenselyAsABox) {
 }
 
 TEST(StartRegion, PlacesAreUniformOverIt) {
-  // Without overlap to speak of: the centres' mean square distance from the middle is that of a uniform disk, R^2 / 2.
+  // The disks are so small that overlap hardly matters: the mean square distance of centres from the middle is that of
+  // a uniform disk, R^2 / 2.
   std::string text = scene_with(group(4000, "random", "region = { circle = [20.0, 15.0, 12.0] }\n"));
   text = replaced(text, "radius = 0.5", "radius = 0.001");
   const Disks d = start_of(text);
@@ -78,13 +81,13 @@ TEST(StartRegion, PlacesAreUniformOverIt) {
     x += d.x[i] - 20.0;
     y += d.y[i] - 15.0;
   }
-  // The deviation of the mean of 4000 such squares is R^2 / sqrt(12 * 4000); four of them.
+  // The mean of 4000 such squares has a standard deviation of R^2 / sqrt(12 * 4000); the tolerance is four times that.
   EXPECT_NEAR(squares / 4000.0, 72.0, 4.0 * 144.0 / std::sqrt(48000.0));
   EXPECT_NEAR(x / 4000.0, 0.0, 4.0 * 6.0 / std::sqrt(4000.0));
   EXPECT_NEAR(y / 4000.0, 0.0, 4.0 * 6.0 / std::sqrt(4000.0));
 }
 
-// Sides that stand inside the box move no region: a circle is where the scene has it.
+// Sides that stand inside the box do not shift regions: a circle is where the scene puts it.
 TEST(StartRegion, ACircleStaysWhereItIsBetweenSidesThatMove) {
   const std::string sides =
       "left = { motion = { velocity = [0.1, 0.0] }, place = 6.0 }\n"
@@ -97,7 +100,7 @@ TEST(StartRegion, ACircleStaysWhereItIsBetweenSidesThatMove) {
   }
 }
 
-// Nor a fixed disk: it is where the scene has it, as are the ends of a wall.
+// The same for obstacles: a fixed disk and the ends of a wall are where the scene puts them.
 TEST(StartRegion, ObstaclesStayWhereTheyAreBetweenSidesThatMove) {
   const Scene scene = scene_from(
       scene_with("[[disks]]\nfixed = true\ncount = 2\npositions = [[20.0, 15.0], [30.0, 9.0]]\nradius = 2.0\n" +
@@ -113,7 +116,7 @@ TEST(StartRegion, ObstaclesStayWhereTheyAreBetweenSidesThatMove) {
   EXPECT_EQ((Vec2{all[2].dx, all[2].dy}), (Vec2{2.0, 10.0}));
 }
 
-// A rectangle may touch a side that moves, where that is at time 0, and reach beyond none of the four.
+// A rectangle may touch a moving side at its place at time 0, but reach beyond none of the four.
 TEST(StartRegion, NoneReachesBeyondASideThatMoves) {
   const auto said = [](const std::string& region) {
     return complaint(scene_with(group(4, "random", "region = " + region + "\n"),
@@ -129,7 +132,7 @@ TEST(StartRegion, NoneReachesBeyondASideThatMoves) {
   }
 }
 
-// Two that vibrate against each other come to 10.5 - (2 + 3) - |2 + 3| of each other, to and fro together they do not.
+// Sides that vibrate against each other come to 10.5 - (2 + 3) - |2 + 3| of each other; in phase they do not.
 TEST(StartRegion, SidesThatVibrateTogetherAreAsFarApartAsTheyComeNear) {
   const auto scene = [](const char* right) {
     return replaced(
@@ -155,20 +158,21 @@ TEST(StartRegion, ItHasNoEdgeWhereItSpansAPeriodicSide) {
   const Disks d = start_of(scene_with(group(400, "square", "region = [0.0, 0.0, 40.0, 10.0]\n") +
                                           group(300, "random", "region = [0.0, 10.0, 40.0, 30.0]\n"),
                                       all_periodic));
-  // Across the other two it has one: forty disks a row, 1 + floor((10 - 1) / (sqrt(3) / 2)) rows.
+  // Along the other axis the region has edges: rows of forty disks, 1 + floor((10 - 1) / (sqrt(3) / 2)) of them.
   const Disks rows = start_of(scene_with(group(440, "hexagonal", "region = [0.0, 10.0, 40.0, 20.0]\n"), all_periodic));
   const auto [low, high] = std::minmax_element(rows.y.begin(), rows.y.end());
   EXPECT_GE(*low, 10.5 - 1e-12);
   EXPECT_LE(*high, 19.5 + 1e-12);
   double least = 1.0;
   for (std::size_t i = 400; i < 700; ++i) least = std::min(least, d.x[i]);
-  EXPECT_LT(least, 0.5) << "random disks lie across the side";
-  // The whole box is what no region is.
+  EXPECT_LT(least, 0.5) << "random disks must lie across the side, too";
+  // A region that is the whole box must be the same as no region.
   const std::string all = scene_with(group(300, "random", "region = [0.0, 0.0, 40.0, 30.0]\n"), all_periodic);
   EXPECT_EQ(state_hash(start_of(all)), state_hash(start_of(replaced(all, "region = [0.0, 0.0, 40.0, 30.0]\n", ""))));
 }
 
-// A circle of which a lattice of touching disks would fill thousands of millions of places holds a few at once.
+// A few disks must be found quickly in a circle where a lattice of touching disks would have thousands of millions of
+// sites.
 TEST(CircleLattice, FewDisksInALargeCircleAreFoundAtOnce) {
   constexpr double reach = 1e9;
   for (const bool hexagonal : {false, true}) {
@@ -182,14 +186,14 @@ TEST(CircleLattice, FewDisksInALargeCircleAreFoundAtOnce) {
 }
 
 TEST(StartRegion, ALatticeInACircleIsCentredAndAsWideAsItCanBe) {
-  // Seven touching disks fill a circle of three radii.
+  // Seven touching disks fill a circle of three of their radii.
   const std::vector<Vec2> seven = circle_sites({true, 2.0, 2.0}, 7);
   ASSERT_EQ(seven.size(), 7U);
   EXPECT_EQ(seven[3], (Vec2{0.0, 0.0}));
   for (std::size_t k = 0; k < 7; ++k) {
     EXPECT_NEAR(std::hypot(seven[k].x, seven[k].y), k == 3 ? 0.0 : 2.0, 1e-11);
   }
-  // With more room they lie as far apart as it is wide, five on a square lattice likewise; nine reach sqrt(2) spacings.
+  // With more room they are as far apart as possible, and so are five on a square lattice; nine reach sqrt(2) spacings.
   EXPECT_NEAR(circle_sites({true, 3.0, 2.0}, 7).at(0).x, -1.5, 1e-9);
   EXPECT_NEAR(circle_sites({false, 3.0, 2.0}, 5).at(0).y, -3.0, 1e-9);
   EXPECT_NEAR(circle_sites({false, 3.0, 2.0}, 9).at(0).y, -3.0 / std::sqrt(2.0), 1e-9);
@@ -205,7 +209,7 @@ TEST(StartRegion, ALatticeInACircleIsCentredAndAsWideAsItCanBe) {
   }
 }
 
-// 2.2 + 1.1 is more than 3.3 by its last bit.
+// By the last bit 2.2 + 1.1 is more than 3.3.
 TEST(StartRegion, ACircleMayTouchASideInDecimals) {
   for (const std::string positions : {"random", "square", "hexagonal"}) {
     SCOPED_TRACE(positions);
@@ -217,7 +221,7 @@ TEST(StartRegion, ACircleMayTouchASideInDecimals) {
   }
 }
 
-// 0.1 + 0.2 is more than 0.3, and 0.9 - 0.3 + 0.3 more than 0.9, by the last bit.
+// By the last bit 0.1 + 0.2 is more than 0.3, and 0.9 - 0.3 + 0.3 more than 0.9.
 TEST(StartRegion, OneDiskMayFillACircleInDecimals) {
   for (const char* positions : {"random", "square", "hexagonal"}) {
     for (const char* radius : {"0.3", "0.30000000000000004"}) {
@@ -248,8 +252,8 @@ TEST(StartRegion, OneRowMayFillARectangleInDecimals) {
   }
 }
 
-// Likewise of three in a row, and of two such rows on a hexagonal lattice, three and a half diameters wide. They
-// overlap by no more than decimals are rounded there.
+// The same for three disks in a row, and for two such rows of a hexagonal lattice, three and a half diameters wide.
+// They overlap by at most the rounding of decimals there.
 TEST(StartRegion, RowsOfSeveralMayFillARectangleInDecimals) {
   const auto far_scene = [](const char* kind, int count, const std::string& bounds) {
     const std::string text = scene_with(group(count, kind, "region = [" + bounds + "]\n"));
@@ -297,7 +301,7 @@ TEST(StartRegion, BadOnesAreNamedByLineAndKey) {
               HasSubstr("disks.0.region: beside positions that are given; expected"));
   EXPECT_THAT(region("random", "[2, 3, 7, 8]"), HasSubstr("disks.0.positions: \"random\" finds no room for disk"));
   EXPECT_THAT(region("random", "[2, 3, 7, 8]"), HasSubstr("in its region after"));
-  // Of k disks of radius 1/2 in a circle of radius 3: k / 36.
+  // k disks of radius 1/2 in a circle of radius 3 have the packing fraction k / 36.
   const std::string jammed = region("random", "{ circle = [10, 10, 3] }");
   const std::size_t placed = jammed.find("trials; "), fraction = jammed.find("packing fraction ");
   ASSERT_NE(placed, std::string::npos) << jammed;
