@@ -1,4 +1,4 @@
-// The table [analysis]: what it takes, what it fills in, and the one line for everything else.
+// The table [analysis]: what it accepts, its defaults, and the error line for everything else.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -21,9 +21,9 @@ std::string with(const std::string& lines) {
 TEST(AnalysisScene, FillsInWhatIsNotSaidAndWritesItDown) {
   const Scene scene = scene_from(with(R"(what = ["density", "speeds", "pair_correlation", "displacement"])"));
   const AnalysisPlan& plan = scene.analysis;
-  EXPECT_EQ(plan.every, 0.1) << "a hundredth of the run";
+  EXPECT_EQ(plan.every, 0.1) << "the default is a hundredth of the run";
   EXPECT_EQ(plan.start, 0.0);
-  EXPECT_EQ(plan.pairs.r_max, 2.0) << "half of what walls 10 apart leave the centres";
+  EXPECT_EQ(plan.pairs.r_max, 2.0) << "half of the room of centres between walls 10 apart";
   EXPECT_EQ(plan.pairs.wall_margin, 3.0);
   EXPECT_EQ(plan.pairs.bins, 50U);
   EXPECT_FALSE(plan.density_along_x);
@@ -39,20 +39,21 @@ std::tuple<double, Count, double> numbers_of(const DistancePlan& plan) {
   return {plan.r_max, plan.bins, plan.wall_margin};
 }
 
-// Pairs are looked at as if there were no other disks than those that are measured.
+// Distances of pairs are chosen as if only the disks measured were there.
 TEST(AnalysisScene, DistancesAreOfTheDisksThatAreMeasured) {
   const std::string large = "count = 1\npositions = [[14.0, 5.0]]\nradius = 2.0\n";
   const std::string moving = large + "mass = 1.0\n";
   const std::string wanted = "what = [\"pair_correlation\", \"bond_correlation\"]\n";
   const AnalysisPlan alone = scene_from(with(wanted)).analysis;
   const AnalysisPlan obstacle = scene_from(with(wanted + "[[disks]]\nfixed = true\n" + large)).analysis;
-  EXPECT_EQ(numbers_of(obstacle.pairs), numbers_of(alone.pairs)) << "a fixed disk is no part of g(r)";
+  EXPECT_EQ(numbers_of(obstacle.pairs), numbers_of(alone.pairs)) << "a fixed disk does not count in g(r)";
   EXPECT_EQ(numbers_of(obstacle.bonds), numbers_of(alone.bonds));
   const AnalysisPlan both = scene_from(with(wanted + "[[disks]]\nname = \"large\"\n" + moving)).analysis;
   EXPECT_EQ(both.pairs.wall_margin, both.pairs.r_max + 2.0);
   const std::string selected = test::replaced(with(wanted + "select = \"small\"\n[[disks]]\n" + moving), "[[disks]]",
                                               "[[disks]]\nname = \"small\"");
-  EXPECT_EQ(numbers_of(scene_from(selected).analysis.pairs), numbers_of(alone.pairs)) << "nor one of another group";
+  EXPECT_EQ(numbers_of(scene_from(selected).analysis.pairs), numbers_of(alone.pairs))
+      << "nor does a disk of another group";
 }
 
 TEST(AnalysisScene, TakesWhatIsSaid) {
@@ -71,7 +72,7 @@ TEST(AnalysisScene, SamplesComeWithTheFramesWhereThereAreAny) {
   EXPECT_EQ(scene_from(with("what = [\"speeds\"]\n[output]\nevery = 0.7\nseries = true")).analysis.every, 0.7);
 }
 
-// One sample at the end, as many bins as there may be, and rows from the first sample on.
+// One sample, at the end; the largest number of bins; and rows that start with the first sample.
 TEST(AnalysisScene, TakesAllUpToItsBounds) {
   for (const char* const most : {"what = []\nstart = 10.0", "what = [\"density\"]\ndensity = { bins = 100000 }",
                                  "what = [\"density\"]\nstart = 5.0\ndensity = { every = 6e-5 }"}) {

@@ -1,4 +1,4 @@
-// Scenes whose values are each sound but do not go together, unreadable files, and faulty --set.
+// Scenes whose values are valid one by one but not together, unreadable files, and faulty --set.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ using testing::StartsWith;
 
 constexpr std::string_view positions = "positions = [[2, 2], [5, 5], [8, 2]]";
 
-// What the complaint is when the sound scene has its positions replaced.
+// The error for the sound scene with these positions.
 std::string with_positions(std::string_view value) {
   return complaint(replaced(sound_scene, positions, value));
 }
@@ -70,7 +70,7 @@ TEST(UnusedKey, IntervalsShorterThanAStepAreAWarning) {
   EXPECT_THAT(beside({{"output.every", "0.04"}, {"run.method", "exact"}}), testing::IsEmpty());
 }
 
-// Before anything is drawn for them: 3.9e9 radii would take minutes.
+// The error must come before any radius is drawn: 3.9e9 of them would take minutes.
 TEST(BadCount, MoreDisksThanTheMachineHolds) {
   const std::string text = replaced(replaced(sound_scene, "count = 3", "count = 3_900_000_000"), "radius = 1.0",
                                     "radius = { uniform = [0.5, 1.0] }");
@@ -104,7 +104,7 @@ TEST(BadStart, OverlapNamesBothDisksAndTheOverlap) {
                                         "right = \"wall\"", "right = \"periodic\"");
   EXPECT_THAT(complaint(replaced(periodic, positions, "positions = [[0, 2], [5, 5], [19, 2]]")),
               HasSubstr("disks 0 and 2 overlap by 1 (50 % of r1 + r2)"))
-      << "through the side";
+      << "it goes through the side";
 }
 
 TEST(BadStart, DiskOutsideTheBox) {
@@ -165,7 +165,7 @@ TEST(BadBox, SmallerThanADisk) {
               AllOf(StartsWith("gas.toml:6: box.height: 3.9 is too small"), HasSubstr("two diameters")));
 }
 
-// A box that is made to fit has no key width or height to blame.
+// The box is computed from packing_fraction, so no key width or height can be blamed.
 TEST(BadBox, MadeToFitTheAreaAndSmallerThanADisk) {
   const std::string flat = replaced(sound_scene, "width = 20.0\nheight = 10.0", "packing_fraction = 0.5\naspect = 20");
   EXPECT_THAT(complaint(flat), StartsWith("gas.toml:5: box.packing_fraction: height of the box: 0.97"));
@@ -197,7 +197,7 @@ TEST(BadPhysics, BrownianMotionNeedsAStep) {
               StartsWith("gas.toml:11: physics.accumulate: needs Brownian motion"));
 }
 
-// The sound scene with a source; sizes default to the disks'.
+// The sound scene with a source; by default its sizes are those of the disks.
 std::string with_source(std::string_view lines, std::string_view sizes = "radius = 1\nmass = 1") {
   return complaint(replaced(sound_scene, "[run]", fmt::format("[[sources]]\n{}\n{}\n[run]", lines, sizes)));
 }
@@ -236,7 +236,7 @@ TEST(BadSource, LawsThatDoNotServeAnyNumber) {
               HasSubstr("box.height: 10 is too small for a disk of radius 6"));
 }
 
-// What is offered instead is what a source takes.
+// The message must offer only what a source accepts.
 TEST(BadSource, IsNotOfferedAList) {
   const std::string_view side = "side = \"left\"\nrate = 1";
   EXPECT_THAT(
@@ -284,7 +284,7 @@ TEST(BadFile, SyntaxIsReportedWithItsLine) {
   EXPECT_THAT(complaint(replaced(sound_scene, "[box]", "[\x01]")), StartsWith("gas.toml:4: TOML syntax: "));
 }
 
-// What people write behind a number elsewhere.
+// Notations that people use for numbers elsewhere.
 TEST(BadFile, DecimalCommasAndUnits) {
   const auto width = [](const char* value) {
     return complaint(replaced(sound_scene, "width = 20.0", std::string("width = ") + value));
@@ -293,7 +293,7 @@ TEST(BadFile, DecimalCommasAndUnits) {
   EXPECT_THAT(width("20 cm"), EndsWith("; expected valid TOML 1.0, where numbers have no unit"));
   EXPECT_THAT(width("20.0cm # wide"), EndsWith(", where numbers have no unit"));
   EXPECT_THAT(width("90 %"), EndsWith(", where numbers have no unit"));
-  EXPECT_THAT(width("{ a = 1 b = 2 }"), EndsWith("; expected valid TOML 1.0")) << "there a comma is missing";
+  EXPECT_THAT(width("{ a = 1 b = 2 }"), EndsWith("; expected valid TOML 1.0")) << "a comma is missing there";
   EXPECT_THAT(width("20 = 30"), EndsWith("; expected valid TOML 1.0"));
 }
 
@@ -307,7 +307,7 @@ TEST(BadFile, OnlyStringsAndCommentsLeaveAscii) {
   EXPECT_EQ(complaint("\xef\xbb\xbf" + std::string(sound_scene)), "") << "byte order mark";
 }
 
-// U+FDBF is where the parser looks for the end of a number, and our own search takes it for part of a string.
+// The parser looks for the end of a number at U+FDBF, while our own search takes that for part of a string.
 TEST(BadFile, CharactersOutsideAsciiAfterANumber) {
   EXPECT_THAT(complaint(replaced(sound_scene, "dt = 0.01", "dt = +\"0.01\ufdbf")),
               StartsWith("gas.toml:22: TOML syntax: "));
@@ -376,7 +376,7 @@ TEST(BadOverride, IsNamedByItsKey) {
   EXPECT_THAT(complaint(sound_scene, {{"run.method", "exakt"}}), HasSubstr("(nearest: exact)"));
 }
 
-// The file has no line of such a table.
+// The table does not occur in the file, so the message has no line number.
 TEST(BadOverride, IsNamedWhereATableThatItMadeIsWrong) {
   EXPECT_THAT(complaint(sound_scene, {{"growth.steps", "5"}, {"run.t_end", "1"}}),
               StartsWith("--set growth.steps: growth: nothing grows; expected"));
@@ -387,7 +387,7 @@ TEST(BadOverride, IsNamedWhereATableThatItMadeIsWrong) {
               StartsWith("--set physics.collapse.model: physics.collapse.contact_time: missing"));
   EXPECT_THAT(complaint(replaced(sound_scene, "dt = 0.01\n", ""), {{"run.t_end", "1"}}),
               MatchesRegex("gas.toml:[0-9]+: run.dt: missing.*"))
-      << "a table of the file has its line there";
+      << "for a table of the file the line is named";
 }
 
 }  // namespace

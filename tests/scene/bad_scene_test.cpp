@@ -1,4 +1,4 @@
-// Every bad scene gets one line that names file, line and key, and says what was expected.
+// Every bad scene gives one line that names file, line and key, and says what was expected.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-// One thing changed in the sound scene, and what the complaint must begin with and contain.
+// A single change of the sound scene, and what the error must begin with and contain.
 struct Fault {
   std::string_view name;
   std::string_view from, to;
@@ -242,7 +242,7 @@ const Fault out_of_range[] = {
 };
 INSTANTIATE_TEST_SUITE_P(OutOfRange, BadScene, testing::ValuesIn(out_of_range), name_of);
 
-// A trajectory of a rectangle in which no disk can be.
+// A selection of the trajectory by a rectangle that can contain no disk.
 const Fault selected[] = {
     {"Above", "[run]", "[output]\ntrajectory = \"xyz\"\nselect = [0.0, 10.0, 20.0, 12.0]\n[run]", "22: output.select: ",
      "the rectangle from (0, 10) to (20, 12) is outside the box of 20 x 10; expected one that has room in common"},

@@ -1,4 +1,4 @@
-// What a scene asks of Brownian disks that they cannot have: a warning each, with the key.
+// Settings that have no effect on Brownian disks, or not the expected one: one warning for each, with its key.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-// What gravity and masses would do to Brownian disks is nothing that depends on the scene alone, or on it as it should.
+// The effect of gravity and masses would depend on dt, or would be none.
 TEST(BrownianWarnings, TellWhatDependsOnMoreThanTheScene) {
   const std::string start = R"(
 [box]
@@ -63,7 +63,7 @@ t_end = 1.0
                       {"box.bottom", "periodic"},
                       {"box.top", "periodic"}}),
               testing::ElementsAre(HasSubstr("box.wall_restitution: Brownian disks")));
-  // The sides do not tell whether the box's is 0.5 or 1.
+  // The restitutions of the sides do not tell whether that of the box is 0.5 or 1, so the sides are named.
   EXPECT_THAT(warned("", "", {{"box.left", "{ restitution = 0.5 }"}, {"box.top", "{ restitution = 0.5 }"}}),
               testing::ElementsAre(HasSubstr("toml: box.left.restitution, box.top.restitution: Brownian disks")));
   EXPECT_THAT(warned("", "",
@@ -88,8 +88,8 @@ t_end = 1.0
                            HasSubstr("autocorrelation is that")));
 }
 
-// A drift does nothing to disks whose displacements are drawn anew in each step; velocities drawn around 0 were to do
-// nothing.
+// A drift has no effect on disks whose displacements are drawn anew in each step; for velocities drawn around 0 this is
+// intended.
 TEST(BrownianWarnings, TellOfAForgottenDrift) {
   const auto warned = [](std::string_view physics, std::string_view group) {
     return scene_warnings(test::scene_from(fmt::format(R"(

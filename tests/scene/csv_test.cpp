@@ -48,7 +48,7 @@ TEST(Csv, ReadsOtherLineEndsAndMarks) {
 
 TEST(Csv, NamesTheLineItCannotRead) {
   EXPECT_THAT(complaint_of("1,2\n3;4\n"), testing::StartsWith("p.csv:2: disks.0.positions: cannot read \"3;4\""));
-  EXPECT_THAT(complaint_of("# a\n\n1,2\nx,y\n"), HasSubstr("p.csv:4: ")) << "a header comes first or not at all";
+  EXPECT_THAT(complaint_of("# a\n\n1,2\nx,y\n"), HasSubstr("p.csv:4: ")) << "a header may only be the first line";
   EXPECT_THAT(complaint_of("abc,2\n"), HasSubstr("p.csv:1: "));
   EXPECT_THAT(complaint_of("1.0abc,2\n"), HasSubstr("p.csv:1: "));
   EXPECT_THAT(complaint_of("1,2,3\n"), HasSubstr("p.csv:1: "));
@@ -66,7 +66,7 @@ TEST(Csv, ANumberHasOneSign) {
   }
 }
 
-// The other way round, disks would lie elsewhere without a word.
+// With the columns exchanged the disks would silently be in other places.
 TEST(Csv, AHeaderThatNamesYFirstIsRefused) {
   for (const char* const heading : {"y,x", "y , x", "vy,vx", "vy [m/s],vx [m/s]", "\"y\",\"x\"", "Y,X", "y1,x1"}) {
     EXPECT_THAT(complaint_of(std::string("# a\n") + heading + "\n1,2\n"),
@@ -79,7 +79,7 @@ TEST(Csv, AHeaderThatNamesYFirstIsRefused) {
   }
 }
 
-// A file of velocities taken for one of positions would be another scene without a word.
+// A file of velocities taken as one of positions would silently give another scene.
 TEST(Csv, AHeaderOfVelocitiesIsRefusedForPlaces) {
   const auto complaint = [](const char* heading, CsvPairs pairs) -> std::string {
     try {

@@ -1,4 +1,4 @@
-// Disks that start from a frame of an earlier run: what is taken over as it is, and what is not.
+// Disks that start from a frame of an earlier run: what is taken unchanged, and what is not.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -27,8 +27,8 @@ std::string scene_with(const std::string& box, const std::string& physics, const
 
 const std::string torus = "left = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\n";
 
-// A frame is asked for its velocities where the scene takes them, and no shear flow comes along: of vx = g (y - h / 2),
-// here 0.25 (y - 4), nothing is left.
+// A frame is asked for velocities only if the scene takes them from it, and its shear flow is removed: of vx = g (y - h
+// / 2), here 0.25 (y - 4), nothing is left.
 TEST(FrameKeys, FramesGiveVelocitiesWithoutTheirFlow) {
   std::vector<bool> asked;
   const FrameReader frames = [&](const FrameAsked& frame) -> SceneFrame {
@@ -45,7 +45,7 @@ TEST(FrameKeys, FramesGiveVelocitiesWithoutTheirFlow) {
   EXPECT_EQ(scene.groups[0].velocities.list, (std::vector<Vec2>{{1.5, 0.5}, {1.75, 0.0}, {-0.5, 0.0}}));
 }
 
-// Disks of a frame of time stepping, which overlap by a little, start smaller; nothing but radii is scaled.
+// Disks from a frame of time stepping, which overlap a little, may be scaled down; only radii are scaled.
 TEST(FrameKeys, RadiiOfAFrameAreScaled) {
   const FrameReader frames = [](const FrameAsked&) -> SceneFrame {
     return {{{2.0, 2.0}, {5.0, 5.0}, {8.0, 2.0}}, {}, {0.5, 1.0, 2.0}, {1.0, 1.0, 4.0}};
@@ -60,13 +60,13 @@ TEST(FrameKeys, RadiiOfAFrameAreScaled) {
   EXPECT_EQ(group.mass.values, (std::vector{1.0, 1.0, 4.0}));
   try {
     scene("1.0", half);
-    FAIL() << "was read";
+    FAIL() << "the scene was accepted";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("mass.scale: is given for mass; expected it for radius alone"));
   }
 }
 
-// u / dt of a step is a velocity to no disk but one in Brownian motion, which draws it anew.
+// The velocities u / dt of Brownian disks may be taken only for disks in Brownian motion, which are drawn anew.
 TEST(FrameKeys, VelocitiesOfBrownianDisksServeBrownianDisks) {
   const FrameReader frames = [](const FrameAsked&) -> SceneFrame {
     SceneFrame found{{{2.0, 2.0}, {5.0, 5.0}, {8.0, 2.0}}, {{1.0, 0.5}, {2.0, 0.0}, {-1.0, 0.0}}, {}, {}};
@@ -88,7 +88,7 @@ TEST(FrameKeys, VelocitiesOfBrownianDisksServeBrownianDisks) {
   }
 }
 
-// Smooth disks of an earlier run do not spin.
+// Smooth disks of an earlier run have no spin.
 TEST(FrameKeys, AFrameWithoutSpinsHasThemAtRest) {
   const FrameReader frames = [](const FrameAsked&) -> SceneFrame {
     return {{{2.0, 2.0}, {5.0, 5.0}, {8.0, 2.0}}, {}, {}, {}};

@@ -1,4 +1,5 @@
-// Keys that are sound each and do not go together, at the bounds of what does, and a scene of many keys written out.
+// Keys that are valid one by one but not together, at the limits of what is accepted, and a scene of many keys written
+// out.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -43,13 +44,13 @@ TEST(KeysTogether, SelectionSaysEveryWithAnOrdinal) {
   }
 }
 
-// The shell gives numbers without quotes: those of 64 bits, too, for a seed.
+// The shell passes numbers without quotes: numbers of 64 bits for a seed, too.
 TEST(KeysTogether, ASeedOf64BitsIsSetWithoutQuotes) {
   EXPECT_EQ(scene_from(sound_scene, {{"seed", "18446744073709551615"}}).seed, 18446744073709551615U);
   EXPECT_THAT(complaint(sound_scene, {{"seed", "18446744073709551616"}}), HasSubstr("--set seed: is"));
 }
 
-// [v, v] is sqrt(2) v fast: above the 1e60 of a speed where neither component is.
+// A speed is that of both components, sqrt(2) v for [v, v]: it may exceed the limit of 1e60 although no component does.
 TEST(KeysTogether, ASpeedIsThatOfBothComponents) {
   const auto velocity = [](const std::string& v) {
     return complaint(scene_with("", "", "velocities = [[0, 0], [" + v + "], [0, 0]]\n", "", "t_end = 0.0\n"));
@@ -60,8 +61,8 @@ TEST(KeysTogether, ASpeedIsThatOfBothComponents) {
   EXPECT_THAT(velocity("0.8e60, 0.8e60"), HasSubstr("disks.0.velocities.1: is [8e+59, 8e+59]: it has a speed of 1.13"));
 }
 
-// g t^2 / 2 through periodic sides, where a fall never ends: 2^53 boxes of length 20 are 1.8e17. Between floor and
-// ceiling a fall is as long as the box, at sqrt(2 g height).
+// Along periodic sides a fall never ends, so its length is g t^2 / 2: 2^53 boxes of length 20 are 1.8e17. Between floor
+// and ceiling a fall is at most the box's height, with the speed sqrt(2 g height).
 TEST(KeysTogether, AFallThroughPeriodicSidesGoesOn) {
   const auto fall = [](const std::string& sides, const char* g) {
     return complaint(scene_with(sides, fmt::format("gravity = {}\n", g), "", "", "t_end = 1e9\n"));
@@ -88,7 +89,7 @@ TEST(KeysTogether, KicksAreCounted) {
               HasSubstr("physics.thermostat.dt: is 1e-20: 1e+21 kicks until run.t_end = 10"));
 }
 
-// No method takes a kick a step but those that step.
+// Only methods with steps need kicks that are no more frequent than steps.
 TEST(KeysTogether, KicksMayComeMoreOftenThanAStepThatExactDoesNotTake) {
   const auto said = [](const char* method) {
     return complaint(scene_with("", "thermostat = { kind = \"langevin\", temperature = 1.0, rate = 1.0, dt = 0.01 }\n",
@@ -106,7 +107,7 @@ TEST(KeysTogether, SmoothDisksHaveNoSpin) {
               HasSubstr("sources.0.spin_temperature: given without physics.roughness"));
 }
 
-// 9 sqrt(T / (q m)) is a surface's largest speed: q = 1e-6 makes it a thousand times that of q = 1.
+// 9 sqrt(T / (q m)) is the largest speed of a surface: q = 1e-6 makes it a thousand times that for q = 1.
 TEST(KeysTogether, SurfacesHaveASpeedWithinItsRange) {
   const auto said = [](const char* inertia, const std::string& source) {
     return complaint(scene_with("",
@@ -121,7 +122,7 @@ TEST(KeysTogether, SurfacesHaveASpeedWithinItsRange) {
   EXPECT_THAT(said("0.01", replaced(hot, "1e119", "1e117")), HasSubstr("sources.0.spin_temperature: is 1e+117"));
 }
 
-// A sheared box is four diameters of the largest disk long both ways, and knows no TC model.
+// A sheared box must be four diameters of the largest disk long along both axes, and excludes the TC model.
 TEST(KeysTogether, AShearedBoxHasRoomAndNoCollapse) {
   const std::string text = scene_with(torus + "shear_rate = 0.1\n", "", "", "");
   EXPECT_THAT(complaint(text), IsEmpty());
@@ -137,7 +138,7 @@ TEST(KeysTogether, AShearedBoxHasRoomAndNoCollapse) {
               HasSubstr("box.shear_rate: given beside physics.collapse"));
 }
 
-// Sides of two periods do not stay in step: they come as near as both come into the box.
+// Sides with different periods do not stay in phase: they come as close to each other as both come into the box.
 TEST(KeysTogether, SidesOfTwoPeriodsMeetInTheEnd) {
   const auto said = [](const char* period) {
     return complaint(scene_with(
@@ -161,7 +162,7 @@ TEST(KeysTogether, SidesAreApartFromTheStartAndWithinTheBox) {
   EXPECT_THAT(said("motion = { velocity = [3.0, 0.0] }", "kind = \"wall\""),
               HasSubstr("box.left.motion: brings the left side out of the box before run.t_end = 10"));
   EXPECT_THAT(said("motion = { vibrate = [-1.0, 0.0], period = 1.0 }", "kind = \"wall\""), IsEmpty())
-      << "around an amplitude from the edge, whatever its sign";
+      << "it vibrates around a place an amplitude from the edge, whatever the sign";
 }
 
 TEST(KeysTogether, WallsHaveALengthAndSinksNoRestitution) {
@@ -176,19 +177,20 @@ TEST(KeysTogether, WallsHaveALengthAndSinksNoRestitution) {
               HasSubstr("walls.0.points: has 1 of them; expected two or more"));
   EXPECT_THAT(complaint(scene_with("", "", "", wall + "motion = { velocity = [1e61, 0.0] }\n")),
               HasSubstr("walls.0.motion.velocity: is [1e+61, 0]; expected a speed"));
-  // The square of such a length is 0, and a disk that met it left with half its energy.
+  // The square of such a length is 0; a disk that met such a wall once left with half its energy.
   EXPECT_THAT(complaint(scene_with("", "", "", "[[walls]]\npoints = [[0, 2], [3e-162, 2]]\n")),
               HasSubstr("walls.0.points: has a segment of length 3e-162 to [3e-162, 2]; expected "));
 }
 
-// Of sizes that are drawn the largest and the lightest count.
+// For sizes that are drawn the largest and the lightest disk count.
 TEST(KeysTogether, TheLargestOfAGroupHasToFit) {
   const std::string text = replaced(scene_with("", "", "", ""), "radius = 1.0\nmass = 2.0",
                                     "radius = [0.5, 6.0, 0.5]\nmass = { from_radius = 1.0 }");
   EXPECT_THAT(complaint(text), HasSubstr("box.height: 10 is too small for a disk of radius 6"));
 }
 
-// Fixed disks stick out of the box, and may be wider than it; across periodic sides they have one nearest image.
+// Fixed disks may reach out of the box and be wider than it; across periodic sides they must have a single nearest
+// image.
 TEST(KeysTogether, AFixedDiskMayBeWiderThanTheBox) {
   const auto with_sides = [](const std::string& sides) {
     return complaint("[box]\nwidth = 10\nheight = 8\n" + sides +
@@ -200,7 +202,7 @@ TEST(KeysTogether, AFixedDiskMayBeWiderThanTheBox) {
               HasSubstr("box.width: 10 is too small for a disk of radius 6; expected at least 24, two diameters"));
 }
 
-// A random start among them ends, however wide they are, and a lattice has its sites in the box.
+// A random start ends even with very wide fixed disks, and a lattice of them has its sites inside the box.
 TEST(KeysTogether, AFixedDiskThatIsWiderThanTheBoxHasItsCentreInIt) {
   const auto start_of = [](const std::string& radius, const std::string& wide, const std::string& small) {
     const Scene scene =
@@ -222,7 +224,7 @@ TEST(KeysTogether, AFixedDiskThatIsWiderThanTheBoxHasItsCentreInIt) {
   EXPECT_THAT(start_of("30", "\"hexagonal\"", "[[1, 1]]"), HasSubstr("expected at most 0"));
 }
 
-// What a thermostat gives is asked of the lightest disk that moves: fixed ones have no mass.
+// The limit of a thermostat depends on the lightest disk that moves: fixed disks have no mass.
 TEST(KeysTogether, AThermostatIsForDisksThatMove) {
   const auto with_mass = [](const std::string& mass) {
     return complaint(
@@ -258,7 +260,7 @@ TEST(KeysTogether, AStartRegionHoldsWholeDisksBothWays) {
   EXPECT_THAT(region("[1, 1, 2.9, 8]"), HasSubstr("disks.0.region: is too small for a disk of radius 1"));
 }
 
-// 0.3 - 0.1 is below 0.2 by rounding.
+// By rounding 0.3 - 0.1 is below 0.2.
 TEST(KeysTogether, AStartRegionHoldsARowOfDisksInDecimals) {
   const auto placed = [](const char* positions, const char* corners) {
     return complaint(
@@ -272,7 +274,7 @@ TEST(KeysTogether, AStartRegionHoldsARowOfDisksInDecimals) {
   }
 }
 
-// 10.8 + 0.3 * 3 is above 11.7 by rounding, and 11.7 - 11.4 below 0.3.
+// By rounding 10.8 + 0.3 * 3 is above 11.7, and 11.7 - 11.4 below 0.3.
 TEST(KeysTogether, ASideThatComesToTheEdgeInDecimalsStaysInTheBox) {
   const auto with_right = [](const std::string& side) {
     return complaint("[box]\nwidth = 11.7\nheight = 10.0\nright = { " + side +
@@ -285,7 +287,7 @@ TEST(KeysTogether, ASideThatComesToTheEdgeInDecimalsStaysInTheBox) {
               HasSubstr("out of the box"));
 }
 
-// 1.1 - 0.3 - 0.6 is below 0.2 by rounding: it was "0.2, expected at least 0.2".
+// By rounding 1.1 - 0.3 - 0.6 is below 0.2: the message was once "0.2, expected at least 0.2".
 TEST(KeysTogether, SidesThatComeToADiameterInDecimalsLeaveADiskRoom) {
   const auto with_speed = [](const char* speed) {
     return complaint(
@@ -298,7 +300,7 @@ TEST(KeysTogether, SidesThatComeToADiameterInDecimalsLeaveADiskRoom) {
   EXPECT_THAT(with_speed("0.1000001"), HasSubstr("brings the left and right sides to 0.2 of each other"));
 }
 
-// A side and a wall that both move steadily, one after the other: the side starts behind and is faster.
+// A side and a wall that both move steadily: the side starts behind the wall and is faster.
 TEST(KeysTogether, ASideMayNotOvertakeAWall) {
   const auto said = [](const char* speed) {
     return complaint(scene_with(fmt::format("left = {{ motion = {{ velocity = [{}, 0.0] }} }}\n", speed), "", "",
@@ -308,8 +310,8 @@ TEST(KeysTogether, ASideMayNotOvertakeAWall) {
   EXPECT_THAT(said("1.7"), HasSubstr("walls.0.motion: the left side comes into the room that it moves through"));
 }
 
-// Where both vibrate in step they may be in the same places, one after the other; their distance is least at a quarter
-// or at three quarters of a period.
+// If both vibrate in phase they may be in the same places at different times; they are closest at a quarter or at three
+// quarters of a period.
 TEST(KeysTogether, ASideAndAWallMaySwingTogether) {
   const auto said = [](const char* x, const char* period) {
     return complaint(scene_with("left = { place = 2.0, motion = { vibrate = [1.0, 0.0], period = 2.0 } }\n", "", "",
@@ -319,7 +321,7 @@ TEST(KeysTogether, ASideAndAWallMaySwingTogether) {
   };
   const auto swept = HasSubstr("walls.0.motion: the left side comes into the room that it moves through");
   EXPECT_THAT(said("6.0", "2.0"), Not(HasSubstr("walls.0")));
-  EXPECT_THAT(said("4.5", "2.0"), swept) << "0.5 where the side is at 1";
+  EXPECT_THAT(said("4.5", "2.0"), swept) << "the wall is at 0.5 when the side is at 1";
   EXPECT_THAT(said("6.0", "3.0"), swept);
 }
 
@@ -334,21 +336,21 @@ TEST(KeysTogether, AWallStaysInTheBox) {
   EXPECT_THAT(said("[1.0, 0.0]"), HasSubstr("walls.0.motion: brings the wall to x = 24, beyond the right side"));
 }
 
-// Of a wall its nearer end counts, and a side that comes up to it, but for rounding, does not run into it.
+// The nearer end of a wall counts, and a side that just reaches it, up to rounding, does not run into it.
 TEST(KeysTogether, ASideRunsIntoTheNearerEndOfAWall) {
   const auto said = [](const char* side, const char* from, const char* to) {
     return complaint(scene_with(std::string(side) + "\n", "", "",
                                 fmt::format("[[walls]]\nfrom = {}\nto = {}\n", from, to), "t_end = 3.0\n"));
   };
-  const char* const right = "right = { motion = { velocity = [-2.5, 0.0] } }";  // up to 12.5
+  const char* const right = "right = { motion = { velocity = [-2.5, 0.0] } }";  // as far as 12.5
   EXPECT_THAT(said(right, "[10, 4]", "[12, 4]"), IsEmpty());
   EXPECT_THAT(said(right, "[10, 4]", "[14, 4]"), HasSubstr("walls.0: the right side runs into it at t = 2.4"));
-  const char* const left = "left = { motion = { velocity = [0.1, 0.0] } }";  // up to 3 * 0.1, above 0.3
+  const char* const left = "left = { motion = { velocity = [0.1, 0.0] } }";  // as far as 3 * 0.1, which is above 0.3
   EXPECT_THAT(said(left, "[0.3, 4]", "[0.3, 6]"), IsEmpty());
   EXPECT_THAT(said(left, "[0.29, 4]", "[0.29, 6]"), HasSubstr("walls.0: the left side runs into it"));
 }
 
-// A side may come over a source's region as long as a part of it has room for a centre, a radius from the side.
+// A side may come over a source's region as long as there is room in it for a centre, a radius away from the side.
 TEST(KeysTogether, ASideLeavesASourceRoom) {
   const auto said = [](const char* speed) {
     return complaint(scene_with(fmt::format("left = {{ motion = {{ velocity = [{}, 0.0] }} }}\n", speed), "", "",
@@ -359,7 +361,7 @@ TEST(KeysTogether, ASideLeavesASourceRoom) {
                                       "of radius 1 from t = 9.56"));
 }
 
-// Every group draws its radii by the ids of its disks, from those of the groups before on.
+// Each group draws its radii by the ids of its disks, which go on from those of the groups before.
 TEST(KeysTogether, PackingFractionCountsTheDisksThatAreDrawn) {
   const std::string drawn =
       "[[disks]]\ncount = 5\npositions = \"random\"\nradius = { uniform = [0.1, 1.0] }\nmass = 1.0\n";
@@ -370,7 +372,7 @@ TEST(KeysTogether, PackingFractionCountsTheDisksThatAreDrawn) {
   EXPECT_NEAR(area / (scene.box.width * scene.box.height), 0.2, 1e-12);
 }
 
-// Fixed disks have no motion and stand in no frame: their name serves [[physics.pairs]] alone.
+// Fixed disks have no motion and are in no frame: their name is only for [[physics.pairs]].
 TEST(KeysTogether, FixedDisksAreNotSelected) {
   const auto select = [](const char* name) {
     return complaint(scene_with("", "", "name = \"gas\"\n",
@@ -382,7 +384,7 @@ TEST(KeysTogether, FixedDisksAreNotSelected) {
   EXPECT_THAT(select("pegs"), HasSubstr("output.select: unknown group \"pegs\""));
 }
 
-// What is written out is the scene that was read: a run is resumed from it.
+// The scene written out is the scene that was read: runs are resumed from it.
 TEST(KeysTogether, AResolvedSceneKeepsWhatTheyAre) {
   const Scene scene = scene_from(
       "[box]\nwidth = 20.0\nheight = 10.0\nwall_restitution = 0.5\nbottom = \"sink\"\nwall_roughness = { "

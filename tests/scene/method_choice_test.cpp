@@ -1,4 +1,5 @@
-// Which method and step an accuracy needs: what must hold of every choice, whatever the rates that it rests on.
+// The choice of a method and a step for an accuracy: properties that must hold for every choice, whatever the rates on
+// which it is based.
 #include "core/load/method_choice.hpp"
 
 #include <fmt/format.h>
@@ -29,7 +30,7 @@ using testing::Not;
 
 const std::string folder = CAROM_SOURCE_DIR "/scenes/";
 
-// Half decades: steps are rounded to two digits.
+// Half decades, since steps are rounded to two digits.
 constexpr double accuracies[] = {1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 1e-6, 1e-7, 1e-8};
 
 // The scenes that come with Carom, by the names of their files.
@@ -117,7 +118,7 @@ TEST(MethodChoice, MoreAccuracyIsNeverCheaperNorMorePossible) {
   }
 }
 
-// No disk may move further than half its radius in a step, at five times the root mean square either.
+// In a step no disk may move further than half its radius, at five times the root mean square speed.
 TEST(MethodChoice, StepsAreShortAgainstTheSmallestDisk) {
   for (const auto& [name, scene] : scenes()) {
     const bool brownian = scene.physics.diffusion > 0.0;
@@ -128,14 +129,14 @@ TEST(MethodChoice, StepsAreShortAgainstTheSmallestDisk) {
   }
 }
 
-// Exact has no error in an elastic gas, at a price that no accuracy changes; pairwise's error is of first order in its
-// step, so that its price grows at least as the accuracy: sooner or later exact is cheaper, and stays so.
+// exact has no error in an elastic gas, and the same cost for any accuracy. The error of pairwise is of first order in
+// its step, so that its cost grows at least in proportion to the accuracy: from some accuracy on exact is cheaper.
 TEST(MethodChoice, ExactTakesOverInAnElasticGas) {
   const Scene scene = fluid(10'000);
   const MethodChoice coarse = choose_method(scene, 1e-5), fine = choose_method(scene, 1e-7);
   EXPECT_EQ(exact_of(coarse).error, 0.0);
   EXPECT_EQ(exact_of(fine).seconds, exact_of(coarse).seconds);
-  EXPECT_NEAR(pairwise_of(coarse).dt / pairwise_of(fine).dt, 100.0, 12.0) << "two digits each";
+  EXPECT_NEAR(pairwise_of(coarse).dt / pairwise_of(fine).dt, 100.0, 12.0) << "both have two digits";
   bool taken = false;
   for (const double accuracy : accuracies) {
     const MethodChoice choice = choose_method(scene, accuracy);
@@ -146,8 +147,8 @@ TEST(MethodChoice, ExactTakesOverInAnElasticGas) {
   EXPECT_TRUE(taken);
 }
 
-// McNamara and Young (1996): a gas of restitution 0.6 or less collapses in two dimensions, one of 0.9 does not. On a
-// floor that dissipates every disk comes to rest.
+// McNamara and Young (1996): in two dimensions a gas with restitution 0.6 or less collapses, one with 0.9 does not. On
+// a floor that dissipates every disk comes to rest.
 TEST(MethodChoice, ExactIsRefusedWhereCollapseIsToBeExpected) {
   Scene gas = fluid(1000);
   for (const double restitution : {0.9, 0.99, 1.0}) {
@@ -170,7 +171,7 @@ TEST(MethodChoice, ExactIsRefusedWhereCollapseIsToBeExpected) {
   }
 }
 
-// Two disks are no pile, but each comes to rest on a shelf, a slide or between pegs that dissipate.
+// Two disks make no pile, but each of them comes to rest on a shelf, on a slide or between pegs that dissipate.
 TEST(MethodChoice, ExactIsRefusedWhereDisksRestOnObstacles) {
   const auto exact = [](const std::string& gravity, const std::string& obstacles) {
     const std::string disks = "[[disks]]\ncount = 2\npositions = \"random\"\nradius = 0.3\nmass = 1.0\n";
@@ -183,7 +184,7 @@ TEST(MethodChoice, ExactIsRefusedWhereDisksRestOnObstacles) {
   EXPECT_TRUE(exact("1.0", shelf));
   EXPECT_FALSE(exact("1.0", shelf + "restitution = 0.5\n"));
   EXPECT_TRUE(exact("1.0", shelf + "kind = \"sink\"\n"));
-  EXPECT_TRUE(exact("1.0", post)) << "gravity does not press against it";
+  EXPECT_TRUE(exact("1.0", post)) << "gravity does not press disks against it";
   EXPECT_FALSE(exact("[1.0, -1.0]", post));
   EXPECT_TRUE(exact("0.0", shelf + "restitution = 0.7\n"));
   const std::string pegs = "[[disks]]\ncount = 2\nfixed = true\npositions = [[8.0, 3.0], [9.5, 3.0]]\nradius = 0.5\n";
@@ -191,7 +192,8 @@ TEST(MethodChoice, ExactIsRefusedWhereDisksRestOnObstacles) {
   EXPECT_FALSE(exact("1.0\nrestitution = 0.7", pegs));
 }
 
-// The TC model's error is 2 Gamma t_c (docs/methods.md), Gamma = 7.007 the published rate at packing fraction 0.5.
+// The error of the TC model is 2 Gamma t_c (docs/methods.md), with Gamma = 7.007, the published rate at packing
+// fraction 0.5.
 TEST(MethodChoice, TheRemedyOfCollapseHasItsOwnError) {
   Scene scene = fluid(1000);
   scene.physics.restitution = 0.5;
@@ -204,12 +206,14 @@ TEST(MethodChoice, TheRemedyOfCollapseHasItsOwnError) {
   }
 }
 
-// The interval between two draws is itself the error, with its root; no run of the steps that 1e-8 needs is offered.
+// The interval between two draws determines the error, which goes as its square root. 1e-8 would need so many steps
+// that no run is offered.
 TEST(MethodChoice, BrownianMotionIsAsAccurateAsItsInterval) {
   const Scene scene = load_scene(folder + "brownian_sink.toml");
   const MethodChoice coarse = choose_method(scene, 1e-3), fine = choose_method(scene, 1e-4);
   for (std::size_t k = 0; k < 2; ++k) {
-    EXPECT_NEAR(coarse.offers.at(k).dt / fine.offers.at(k).dt, 100.0, 20.0) << "two digits each; first order about";
+    EXPECT_NEAR(coarse.offers.at(k).dt / fine.offers.at(k).dt, 100.0, 20.0)
+        << "both have two digits; nearly of first order";
   }
   EXPECT_EQ(choose_method(scene, 1e-8).best, -1);
 }
@@ -219,7 +223,7 @@ struct ChartRow {
   double dt = 0.0, error = 0.0, standard_error = 0.0;
 };
 
-// Errors of pairwise in collision rate, pressure and cooling rate, as measured.
+// Measured errors of pairwise in collision rate, pressure and cooling rate.
 std::vector<ChartRow> measured_errors() {
   std::ifstream file(CAROM_SOURCE_DIR "/docs/chart.csv");
   std::vector<ChartRow> rows;
@@ -228,20 +232,20 @@ std::vector<ChartRow> measured_errors() {
     std::istringstream text(line);
     for (std::string field; std::getline(text, field, ',');) fields.push_back(field);
     if (fields.size() < 8 || fields[1] != "pairwise" || (fields[5] != "rate" && fields[5] != "figure")) continue;
-    if (fields[0] == "brownian") continue;  // of an interval that both methods have
+    if (fields[0] == "brownian") continue;  // its error is that of the interval, which both methods have
     rows.push_back({fields[0], std::stod(fields[2]), std::stod(fields[6]), std::stod(fields[7])});
   }
   return rows;
 }
 
-// At the step that is offered, and below it, the chart has no larger error than was asked for (four standard errors:
-// a hundred numbers).
+// With the step offered, or a shorter one, the errors in the chart are at most those asked for (within four standard
+// errors, as there are a hundred numbers).
 TEST(MethodChoice, ErrorsOfTheChartAreNoLargerThanAskedFor) {
   const std::vector<ChartRow> rows = measured_errors();
   std::size_t compared = 0;
   for (const chart::ChartScene& of_chart : chart::chart_scenes()) {
     const Scene scene = chart::scene_of(of_chart, 1, Method::exact, 0.0, of_chart.length);
-    if (scene.box.shear.acts()) continue;  // beside which "auto" is refused
+    if (scene.box.shear.acts()) continue;  // with a shear "auto" is refused
     for (const double accuracy : accuracies) {
       const double dt = pairwise_of(choose_method(scene, accuracy)).dt;
       for (const ChartRow& row : rows) {
@@ -262,8 +266,8 @@ double collision_rate(const Scene& scene, const State& start) {
   return 2.0 * static_cast<double>(engine->state().counters.collisions) / disk_time;
 }
 
-// A run with the step that is offered against one of exact, from the same start; 25,000 collisions, which scatter by
-// less than Poisson's 1 / sqrt(25,000).
+// A run with the step offered compared with a run of exact from the same start. There are 25,000 collisions, whose
+// number scatters by less than Poisson's 1 / sqrt(25,000).
 TEST(MethodChoice, ARunKeepsToTheAccuracyThatItsStepWasChosenFor) {
   Scene scene = fluid(1000);
   scene.run = {Method::exact, 0.0, 7.0};
@@ -275,8 +279,8 @@ TEST(MethodChoice, ARunKeepsToTheAccuracyThatItsStepWasChosenFor) {
   }
 }
 
-// Seconds of one thread of an idle machine, of the step that is offered for 1e-3: production B 6.5 to 8.5, C 7 to 9
-// (742f5b1). Half and twice what was seen at most is what a factor of two allows.
+// Seconds on one thread of an idle machine with the step offered for 1e-3: production B 6.5 to 8.5, C 7 to 9 (742f5b1).
+// The limits are half of the least and twice the most of these, as a factor of two is allowed.
 TEST(MethodChoice, StepsInAPileCostWhatTheyTake) {
   for (const std::string name : {"production_b", "production_c"}) {
     const Scene scene = load_scene(CAROM_SOURCE_DIR "/scenes/" + name + ".toml");
@@ -298,7 +302,7 @@ TEST(MethodChoice, WhatDoesNotMoveCanBeRun) {
   EXPECT_GE(choose_method(scene, 1e-3).best, 0);
 }
 
-// A disk of e = 0.99 that is stopped loses 50 times what a collision takes (docs/methods.md).
+// Stopping a disk with e = 0.99 takes 50 times what a collision loses (docs/methods.md).
 TEST(MethodChoice, NearlyElasticDisksUnderGravityAskForShortSteps) {
   Scene scene = fluid(1000);
   scene.physics.gravity = Gravity(0.1);
@@ -311,14 +315,13 @@ TEST(MethodChoice, NearlyElasticDisksUnderGravityAskForShortSteps) {
   const double soft = dt(0.5);
   EXPECT_LT(dt(0.99), 0.5 * soft);
   EXPECT_LT(dt(0.999), 0.1 * soft);
-  scene.physics.gravity = Gravity(0.1, 0.0);  // along periodic sides: none is stopped
+  scene.physics.gravity = Gravity(0.1, 0.0);  // along periodic sides no disk is stopped
   EXPECT_EQ(dt(0.99), dt(0.5));
   scene.physics.gravity = Gravity();
   EXPECT_EQ(dt(0.99), dt(0.5));
 }
 
-// Walls that move make fast what was at rest: no step may be taken from the speeds at the start alone.
-// No more than a kick of a thermostat a step.
+// There is at most one kick of a thermostat in a step.
 TEST(MethodChoice, StepsAreNoLongerThanThatOfAThermostat) {
   const std::string gas =
       "[box]\nwidth = 20\nheight = 20\n[physics]\nthermostat = { kind = \"langevin\", temperature = 1.0, rate = 1.0, "
@@ -331,6 +334,7 @@ TEST(MethodChoice, StepsAreNoLongerThanThatOfAThermostat) {
   EXPECT_THAT(choice.offers[0].why, ::testing::HasSubstr("two kicks of the thermostat"));
 }
 
+// Moving walls make disks at rest fast, so the step must not follow from the speeds at the start alone.
 TEST(MethodChoice, WallsThatMoveSetThePace) {
   const std::vector<std::string> walls = {"motion = { vibrate = [0.0, 0.5], period = 0.1, shape = \"sine\" }",
                                           "motion = { vibrate = [0.0, 0.5], period = 0.1 }",
@@ -348,7 +352,7 @@ TEST(MethodChoice, WallsThatMoveSetThePace) {
       const bool vibrates = motion.find("period") != std::string::npos;
       EXPECT_LE(pairwise_of(choice).dt, vibrates ? 0.1 / 50.0 : 1.0);
       scene.physics.restitution = 1.0;
-      EXPECT_EQ(choose_method(scene, 1e-2).best, 1) << "exact needs no speed";
+      EXPECT_EQ(choose_method(scene, 1e-2).best, 1) << "exact does not depend on speeds";
     }
   }
 }
@@ -374,7 +378,7 @@ TEST(MethodAuto, TakesTheChoiceAndWritesIt) {
   EXPECT_TRUE(scene_warnings(again).empty());
 }
 
-// Any dt will do, but a scene with Brownian motion has one.
+// Any dt is enough, but a scene with Brownian motion must have one.
 TEST(MethodAuto, ChoosesAStepForBrownianMotionWithoutDisks) {
   const Scene scene = scene_from(
       "[box]\nwidth = 20.0\nheight = 20.0\n[physics]\ndiffusion = 0.1\n[[disks]]\ncount = 0\npositions = "
@@ -383,7 +387,7 @@ TEST(MethodAuto, ChoosesAStepForBrownianMotionWithoutDisks) {
   EXPECT_EQ(scene_from(resolved_toml(scene)).run.dt, scene.run.dt);
 }
 
-// A dt beside it is not used, and the line that says what was chosen says that, too.
+// A dt given together with "auto" is not used, and the line that states the choice says so.
 TEST(MethodAuto, SaysThatADtBesideItIsNotUsed) {
   const Scene scene = scene_from(automatic("accuracy = 1e-4"));
   const Scene beside = scene_from(automatic("accuracy = 1e-4\ndt = 0.025"));
@@ -391,7 +395,7 @@ TEST(MethodAuto, SaysThatADtBesideItIsNotUsed) {
   EXPECT_EQ(choice_text(beside).find('\n'), std::string::npos);
   EXPECT_THAT(choice_text(beside), HasSubstr("; run.dt = 0.025 of the scene is not used)"));
   EXPECT_THAT(choice_text(scene), Not(HasSubstr("run.dt")));
-  EXPECT_THAT(choose_method(scene, 1e-4).why, Not(HasSubstr("run.dt"))) << "dt is the one that was chosen";
+  EXPECT_THAT(choose_method(scene, 1e-4).why, Not(HasSubstr("run.dt"))) << "dt is the one chosen";
 }
 
 TEST(MethodAuto, WhatCannotBeChosenIsAnError) {

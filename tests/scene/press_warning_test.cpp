@@ -1,4 +1,5 @@
-// Sides that move leave the disks less room than they need: exact crawled towards that, and said nothing beforehand.
+// Moving sides that leave the disks less room than they need: exact once slowed down towards that time without any
+// warning beforehand.
 #include "core/load/press_warning.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +15,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-// A box of 20 x 10 and 40 disks: of radius 1 they need a room of 80 sqrt(3), 138.56.
+// A box of 20 x 10 and 40 disks; with radius 1 they need an area of 80 sqrt(3), 138.56.
 Scene scene_with(std::string_view sides, std::string_view radius = "1.0", std::string_view more = "",
                  std::string_view t_end = "10.0") {
   return test::scene_from(
@@ -24,10 +25,10 @@ Scene scene_with(std::string_view sides, std::string_view radius = "1.0", std::s
 }
 
 constexpr const char* slow = "right = { motion = { velocity = [-0.6, 0.0] } }\n";  // leaves 140 at t = 10
-constexpr const char* far = "right = { motion = { velocity = [-1.0, 0.0] } }\n";   // 138.56 at t = 6.144
+constexpr const char* far = "right = { motion = { velocity = [-1.0, 0.0] } }\n";   // leaves 138.56 at t = 6.144
 constexpr const char* both =
     "left = { motion = { velocity = [0.4, 0.0] } }\nright = { motion = { velocity = [-0.4, "
-    "0.0] } }\n";  // 120 at t = 10
+    "0.0] } }\n";  // leaves 120 at t = 10
 
 TEST(PressWarnings, TellWhenTheRoomIsTooSmall) {
   EXPECT_THAT(press_warnings(scene_with(slow)), IsEmpty());
@@ -46,13 +47,14 @@ TEST(PressWarnings, TellWhenTheRoomIsTooSmall) {
   EXPECT_THAT(scene_warnings(scene_with(far)), testing::Contains(HasSubstr("less than that by t = 6.15")));
 }
 
-// Of other sizes their area alone is sure: between 0.98^2 and 1 of 40 pi, 125.7, which is left at t = 7.43 and later.
+// For disks of several sizes only their own area is a sure limit: it is between 0.98^2 and 1 times 40 pi, 125.7, which
+// is left at t = 7.43 or later.
 TEST(PressWarnings, DisksOfSeveralSizesMayFillMore) {
   const auto found = press_warnings(scene_with(far, "{ uniform = [0.98, 1.0] }"));
   EXPECT_THAT(found, ElementsAre(HasSubstr("less than that by t = 7.")));
 }
 
-// Its largest inset counts, 7: it leaves 130.
+// The largest inset of a vibration counts, 7, which leaves 130.
 TEST(PressWarnings, AVibrationComesAsFarAsItComes) {
   const std::string floor = "right = {{ place = 16.5, motion = {{ vibrate = [{}, 0.0], period = 2.0 }} }}\n";
   EXPECT_THAT(press_warnings(scene_with(fmt::format(fmt::runtime(floor), 3.5))), testing::SizeIs(1));
@@ -60,7 +62,7 @@ TEST(PressWarnings, AVibrationComesAsFarAsItComes) {
   EXPECT_THAT(
       press_warnings(scene_with("right = { place = 16.5, motion = { vibrate = [3.5, 0.0], period = 0.01 } }\n")),
       testing::SizeIs(1))
-      << "also between the times that are looked at";
+      << "also between the times tested";
 }
 
 TEST(PressWarnings, NoneWhereSinksMakeRoom) {

@@ -1,4 +1,4 @@
-// Reading sound scenes: defaults, every law, overrides, and the resolved scene that gives the same again.
+// Reading valid scenes: defaults, every law, overrides, and the resolved scene, which gives the same scene again.
 #include "core/load/scene_file.hpp"
 
 #include <fmt/format.h>
@@ -38,7 +38,7 @@ mass = 2
 t_end = 3
 )";
 
-// A backslash at the end of a line swallows the white space behind it, and no other character.
+// A backslash at the end of a line removes the white space after it, and no other character.
 TEST(SceneFile, StringsGoOnAfterABackslashWithAnyCharacter) {
   for (const std::string_view c : {"\u00a7", "\u00e9", "\u1e9e", "\u3042", "\ufb4b", "\ufdbf", "\ufe0f"}) {
     const Scene s = scene_from(fmt::format("title = \"\"\"a\\\n  {}\"\"\"\n{}", c, least_scene));
@@ -83,7 +83,7 @@ TEST(SceneFile, ReadsGravityAsANumberOrAVector) {
   };
   EXPECT_EQ(gravity("0.5"), Gravity(0.0, 0.5));
   EXPECT_EQ(gravity("[0, -0.5]"), gravity("0.5"));
-  EXPECT_FALSE(std::signbit(gravity("[0, -0.5]").left)) << "a zero with a sign could be seen in velocities";
+  EXPECT_FALSE(std::signbit(gravity("[0, -0.5]").left)) << "the sign of a zero would show in velocities";
   EXPECT_EQ(gravity("[0.0, 0]"), gravity("0"));
   EXPECT_EQ(gravity("[3, -4]"), Gravity(-3.0, 4.0));
   EXPECT_EQ(gravity("[3, -4]").size, 5.0);
@@ -190,7 +190,7 @@ TEST(Overrides, ReplaceAndAdd) {
                                            {"run.dt", "0.125"}});
   EXPECT_EQ(s.physics.restitution, 0.5);
   EXPECT_EQ(s.run.method, Method::rollback);
-  EXPECT_EQ(s.run.dt, 0.125) << "the last one counts";
+  EXPECT_EQ(s.run.dt, 0.125) << "the last override counts";
   EXPECT_EQ(s.groups[0].count, 3U);
   EXPECT_EQ(s.groups[0].positions.list[1], (Vec2{5, 5}));
   EXPECT_EQ(s.title, "two words");
@@ -225,7 +225,8 @@ TEST(SceneFile, FindsCsvBesideTheScene) {
   EXPECT_EQ(resolved_toml(scene_from(resolved_toml(s))), resolved_toml(s)) << "the CSV file is no longer needed";
 }
 
-// What is not used is not spelled out: who adds outputs to the scene.toml of a run without frames gets a hundred.
+// Outputs that are not used are not written out. If the time between frames were, anyone who adds an output to the
+// scene.toml of a run without frames would get a hundred frames.
 TEST(ResolvedScene, HasATimeBetweenFramesOnlyWhereThereAreAny) {
   const std::string ten = replaced(least_scene, "t_end = 3", "t_end = 10");
   const std::string none = resolved_toml(scene_from(ten));
@@ -233,7 +234,7 @@ TEST(ResolvedScene, HasATimeBetweenFramesOnlyWhereThereAreAny) {
   EXPECT_EQ(scene_from(none, {{"output.series", "true"}}).output.every, 0.1);
   EXPECT_THAT(resolved_toml(scene_from(ten, {{"output.every", "2.5"}})), HasSubstr("every = 2.5\n"));
   const std::string ends = resolved_toml(scene_from(ten, {{"output.series", "true"}, {"output.every", "0"}}));
-  EXPECT_THAT(ends, HasSubstr("every = 0.0\n")) << "the first and the last";
+  EXPECT_THAT(ends, HasSubstr("every = 0.0\n")) << "frames at the start and at the end";
 }
 
 TEST(ResolvedScene, KeepsOddTitlesAndNumbers) {
@@ -251,7 +252,7 @@ TEST(ResolvedScene, KeepsOddTitlesAndNumbers) {
   }
 }
 
-// A law for radius or mass with random numbers; other is the key that derives it, empty for none.
+// A random law for a radius or mass. other: the key from which it may be derived; empty for none.
 std::string random_size(Draws& draws, Count count, std::string_view other) {
   switch (draws.bits() % (other.empty() ? 3 : 4)) {
     case 0:
@@ -324,7 +325,7 @@ TEST(ResolvedScene, GivesTheSameSceneAndTheSameStart) {
   }
 }
 
-// Whatever is done to a scene's text, it is read or refused, never anything else.
+// A scene's text with any damage is read or refused, and nothing else happens.
 TEST(SceneFile, SpoiltTextIsReadOrRefused) {
   Draws draws(12);
   for (int k = 0; k < 3000; ++k) {
@@ -354,9 +355,9 @@ TEST(SceneFile, OurOwnScenesAreSound) {
     Count count = 0;
     Count fixed = 0;
     for (const DiskGroup& group : scene.groups) (group.fixed ? fixed : count) += group.count;
-    for (const InnerWall& wall : scene.walls) fixed += wall.points.size() - 1;  // its segments
+    for (const InnerWall& wall : scene.walls) fixed += wall.points.size() - 1;  // one for each segment
     EXPECT_GT(count + scene.sources.size(), 0U) << entry.path();
-    // A million disks take seconds to place, and much longer under a sanitizer.
+    // Placing a million disks takes seconds, and much longer with a sanitizer.
     if (count <= 100'000) {
       const State start = initial_state(scene);
       EXPECT_EQ(start.disks.size(), count) << entry.path();
@@ -367,7 +368,7 @@ TEST(SceneFile, OurOwnScenesAreSound) {
   EXPECT_GE(scenes, 5U);
 }
 
-// Where an inner wall says nothing of its own, it takes as much as those of the box.
+// An inner wall without a restitution of its own has that of the walls of the box.
 TEST(SceneFile, InnerWallsHaveTheRestitutionOfWalls) {
   const Scene scene = parse_scene(
       "[box]\nwidth = 20\nheight = 10\nwall_restitution = 0.5\n[[walls]]\nfrom = [5, 2]\nto = [5, 8]\n[[walls]]\n"

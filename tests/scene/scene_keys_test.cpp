@@ -1,5 +1,5 @@
-// The table of a scene's keys: every row is read, its example is a scene's, its default is what holds; and
-// docs/scene.md is what the program prints.
+// The table of a scene's keys: every row is read, its example is valid in a scene, its default is what holds without
+// it; and docs/scene.md is what the program prints.
 #include "core/scene/scene_keys.hpp"
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// Has a table for each kind of key, so that --set reaches all of them.
+// It has a table for each kind of key, so that --set reaches all keys.
 constexpr std::string_view full_scene = R"([box]
 width = 100.0
 height = 100.0
@@ -69,7 +69,7 @@ std::string message_of(std::string_view text, const std::vector<Override>& chang
   return "";
 }
 
-// The table in which --set finds this one: a table within a group is the value of one of the group's keys.
+// The table to which --set has to be applied: a table within a group is set as the value of one of the group's keys.
 std::string owner_of(std::string_view table, std::string_view name) {
   if (table.empty()) return "";
   if (table == "disks" || table == "frame" || table.starts_with("disks.")) return "disks.0.";
@@ -82,19 +82,19 @@ std::string owner_of(std::string_view table, std::string_view name) {
   return std::string(table) + ".";
 }
 
-// Around walls no disks grow.
+// With walls disks cannot grow.
 std::string with_walls(std::string_view scene) {
   return test::replaced(test::replaced(scene, "positions = \"growth\"", "positions = \"random\""), "[run]",
                         "[[walls]]\nfrom = [50, 50]\nto = [60, 60]\n[[walls]]\npoints = [[70, 80], [75, 80]]\n[run]");
 }
 
-// Beside a thermostat there is no Brownian motion.
+// With a thermostat there is no Brownian motion.
 std::string with_thermostat(std::string_view scene) {
   return test::replaced(scene, "[physics]",
                         "[physics]\nthermostat = { kind = \"andersen\", temperature = 1, rate = 0.1, dt = 0.1 }");
 }
 
-// Is the key one that only scenes with rough disks have?
+// Is the key allowed only in scenes with rough disks?
 bool wants_rough_disks(const SceneKey& key) {
   return key.table == "physics.roughness" || key.table == "box.wall_roughness" || key.name == "wall_roughness" ||
          key.name.starts_with("spin");
@@ -104,7 +104,7 @@ std::string with_rough_disks(std::string_view scene) {
   return test::replaced(scene, "[physics]", "[physics]\nroughness = { tangential_restitution = 0.5 }");
 }
 
-// The scene in which this table is.
+// A scene that contains this table.
 std::string scene_for(const SceneKey& key) {
   if (wants_rough_disks(key)) return with_rough_disks(full_scene);
   if (key.table.starts_with("walls")) return with_walls(full_scene);
@@ -120,7 +120,7 @@ std::string label(const SceneKey& key) {
   return fmt::format("[{}] {}", key.table, key.name);
 }
 
-// No key takes a date: whatever reads it complains.
+// No key accepts a date, so an error shows that the key was read.
 TEST(SceneKeys, EveryRowIsRead) {
   for (const SceneKey& key : scene_keys()) {
     Override change{owner_of(key.table, key.name) + std::string(key.name), "1979-05-27"};
@@ -177,7 +177,7 @@ TEST(SceneKeys, EveryExampleIsAScenes) {
     if (owner != "walls" && key.example.find("motion") != std::string_view::npos) {
       const std::size_t sources = text.find("[[sources]]");
       text.erase(sources, text.find("[run]") - sources);
-      text = test::replaced(text, ", \"structure_factor\"", "");  // which wants periodic sides
+      text = test::replaced(text, ", \"structure_factor\"", "");  // needs periodic sides
       text = test::replaced(text, "[\"tracer\", \"sources\"]", "[\"tracer\", \"tracer\"]");
       if (key.example.starts_with("bottom")) changes.push_back({"box.top", "wall"});
     }
@@ -185,7 +185,7 @@ TEST(SceneKeys, EveryExampleIsAScenes) {
       text = test::replaced(text, "width = 100.0\nheight = 100.0", "packing_fraction = 0.1");
       changes.push_back({"sources.0.region", "[1, 1, 2, 2]"});
     }
-    if (key.name == "shear_rate") {  // goes with little else
+    if (key.name == "shear_rate") {  // excludes most other keys
       text =
           "[box]\nwidth = 100.0\nheight = 100.0\nleft = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\n"
           "top = \"periodic\"\n[[disks]]\ncount = 3\npositions = \"random\"\nradius = 1.0\nmass = 2.0\n"
@@ -202,7 +202,7 @@ TEST(SceneKeys, EveryExampleIsAScenes) {
   }
 }
 
-// A key that says what its row says it is without it changes nothing.
+// A key set to the default stated in its row changes nothing.
 TEST(SceneKeys, EveryDefaultIsWhatHolds) {
   constexpr std::string_view bare = R"([box]
 width = 100.0
@@ -226,7 +226,7 @@ what = ["pair_correlation", "speeds", "density", "profile"]
     if (!value || key.name == "aspect" || key.name == "precision" || key.name == "dimensions") continue;
     const Override change{owner_of(key.table, key.name) + std::string(key.name), std::string(key.initial)};
     if (key.name == "accumulate" || key.table == "box.side.motion" || key.table == "walls.motion") continue;
-    if (key.table == "output.movie") {  // a table of its own makes a movie
+    if (key.table == "output.movie") {  // [output.movie] makes a movie by itself
       const Override movie{"output.movie", "{}"};
       EXPECT_EQ(resolved_toml(parse_scene(bare, "bare.toml", "", {movie, change})),
                 resolved_toml(parse_scene(bare, "bare.toml", "", {movie})))
@@ -275,7 +275,7 @@ TEST_F(ScenePage, IsWhatTheProgramPrints) {
   const test::Outcome printed = carom("docs scene");
   EXPECT_EQ(printed.status, 0);
   EXPECT_TRUE(printed.out == test::text_of(CAROM_SOURCE_DIR "/docs/scene.md"))
-      << "a table has changed; write the page anew with: carom docs scene > docs/scene.md";
+      << "a table has changed; write the page again with: carom docs scene > docs/scene.md";
   const test::Outcome wrong = carom("docs scenes");
   EXPECT_EQ(wrong.status, 2);
   EXPECT_THAT(wrong.err, HasSubstr("there is no page \"scenes\"; expected scene"));

@@ -1,4 +1,4 @@
-// Numbers beyond what the formulas hold are refused in one line; within them, whatever their size, a run is right.
+// Numbers beyond the range of the formulas are refused in one line; within it runs are right for numbers of any size.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -75,7 +75,7 @@ TEST(Range, OfEachNumber) {
   EXPECT_EQ(with("{ maxwell = 1.0 }", "[[0, 5e-324], [-0.0, 0], [1e-200, 0]]"), "") << "no speed is too small";
 }
 
-// No mass of fixed disks is asked for, and the one that they have in its place is no disk's.
+// The limit must not ask for a mass of fixed disks, nor use the number stored in its place.
 TEST(Range, OfSpeedsFromBathsLeavesFixedDisksOut) {
   const std::string heavy =
       "[box]\nwidth = 20.0\nheight = 20.0\n[physics]\nthermostat = { kind = \"langevin\", temperature = 1e26, rate = "
@@ -88,7 +88,7 @@ TEST(Range, OfSpeedsFromBathsLeavesFixedDisksOut) {
               HasSubstr("physics.thermostat.temperature: is 1e+26: a disk of mass 1 crosses the box"));
 }
 
-// A frame of a run whose disks have all left has no spins, which are too few.
+// A frame of a run whose disks have all left has no spins, so there are too few.
 TEST(Range, OfSpinsFromAFrameWithoutDisks) {
   const std::string text =
       replaced(replaced(sound_scene, "restitution = 0.5", "roughness = { tangential_restitution = 0.5 }"), "mass = 2.0",
@@ -110,7 +110,7 @@ TEST(Range, OfNumbersAgainstEachOther) {
   EXPECT_EQ(
       with("dt = 0.01", "dt = 1e-20"),
       "gas.toml:22: run.dt: is 1e-20: 1e+21 steps until run.t_end = 10; expected at most 2^53 = 9.0072e+15 of them");
-  // A thermostat without a time of its own kicks at every dt, by exact too.
+  // A thermostat without dt kicks at every run.dt, in exact, too.
   const std::string bath = "thermostat = { kind = \"andersen\", temperature = 1.0, rate = 0.5 }";
   const std::string kicked = replaced(replaced(sound_scene, "restitution = 0.5", bath), "pairwise", "exact");
   EXPECT_THAT(complaint(replaced(kicked, "dt = 0.01", "dt = 1e-20")), HasSubstr("run.dt: is 1e-20: 1e+21 kicks until"));
@@ -118,7 +118,7 @@ TEST(Range, OfNumbersAgainstEachOther) {
               HasSubstr("21: output.every: is 1e-29: 1e+30 frames until"));
   EXPECT_THAT(with("[run]", "[analysis]\nwhat = [\"speeds\"]\nevery = 1e-29\n[run]"),
               HasSubstr("22: analysis.every: is 1e-29: 1e+30 samples until"));
-  // The piece of a vibration that a time lies in is counted in whole doubles; beyond them the count has no end.
+  // The half periods of a vibration are counted in doubles, which must be exact integers.
   for (const char* shape : {"parabola", "sine"}) {
     const std::string motion =
         fmt::format("motion = {{ vibrate = [0, 1e-29], period = 1e-28, shape = \"{}\" }}", shape);
@@ -127,7 +127,7 @@ TEST(Range, OfNumbersAgainstEachOther) {
         HasSubstr("box.bottom.motion.period: is 1e-28: 2e+29 half periods until run.t_end = 10; expected at most"));
     EXPECT_THAT(with("[run]", "[[walls]]\nfrom = [1, 0.5]\nto = [2, 0.5]\n" + motion + "\n[run]"),
                 HasSubstr("walls.0.motion.period: is 1e-28: 2e+29 half periods"));
-    // Of 2^53 the end of the last one is none that a double holds.
+    // With 2^53 half periods the end of the last one cannot be represented.
     const std::string many =
         fmt::format("motion = {{ vibrate = [0, 1e-17], period = {}, shape = \"{}\" }}", 20.0 * 0x1p-53, shape);
     EXPECT_THAT(with("[physics]", "bottom = { " + many + " }\n[physics]"),
@@ -163,7 +163,7 @@ TEST(Range, OfSources) {
   EXPECT_THAT(source("region = [0, 0, 0.5, 10]\nradius = 0.5\nrate = 1"), HasSubstr(std::string(nowhere)));
   EXPECT_THAT(source("region = [4, 9.6, 6, 10]\nradius = { uniform = [0.1, 0.5] }\nrate = 1"),
               HasSubstr(std::string(nowhere)));
-  EXPECT_EQ(source("region = [0.5, 5, 0.5, 5]\nradius = 0.5\nrate = 1"), "") << "a single place";
+  EXPECT_EQ(source("region = [0.5, 5, 0.5, 5]\nradius = 0.5\nrate = 1"), "") << "a single place is enough";
   EXPECT_EQ(source("region = [0, 0, 0.6, 10]\nradius = 0.5\nrate = 1"), "");
 }
 
@@ -192,7 +192,7 @@ TEST(Title, IsOneThatFitsOnALine) {
   EXPECT_EQ(with("\"gas\"", "\"" + umlauts + "\""), "") << "characters, not bytes";
 }
 
-// Units as powers of two, so that a scene in them has the same bits, scaled.
+// Units that are powers of two, so that a scene in them has the same bits, scaled.
 struct Powers {
   int length = 0, mass = 0, time = 0;
 };
@@ -201,7 +201,7 @@ std::string number(double value, int power) {
   return fmt::format("{}", std::ldexp(value, power));
 }
 
-// Disks of several sizes under gravity, that lose energy, between two walls and two periodic sides, with a source.
+// Disks of several sizes under gravity that lose energy, between two walls and two periodic sides, with a source.
 std::string busy_text(const Powers& p) {
   const auto length = [&](double x) { return number(x, p.length); };
   const auto mass = [&](double x) { return number(x, p.mass); };
@@ -228,7 +228,7 @@ std::string busy_text(const Powers& p) {
   return text + fmt::format("[run]\nmethod = \"pairwise\"\ndt = {}\nt_end = {}\n", time(0.01), time(5.0));
 }
 
-// Two disks head-on, nothing else.
+// Only two disks that meet head-on.
 std::string head_on_text(const Powers& p) {
   const auto length = [&](double x) { return number(x, p.length); };
   return fmt::format(
@@ -248,7 +248,7 @@ State end_of(const std::string& text, Method method, bool parallel) {
   return engine->state();
 }
 
-// Disks by id: where, how fast; time, and what was counted.
+// Positions and velocities by id, the time, and the counters.
 std::vector<double> figures_of(const State& state, const Powers& p) {
   std::vector<double> figures{std::ldexp(state.time, -p.time), static_cast<double>(state.counters.collisions),
                               static_cast<double>(state.counters.wall_collisions),
@@ -261,7 +261,7 @@ std::vector<double> figures_of(const State& state, const Powers& p) {
   return figures;
 }
 
-// Over the whole of the ranges: base numbers of the texts above lie between 2^-10 and 2^5.
+// Over the whole ranges: the numbers of the texts above are between 2^-10 and 2^5.
 std::vector<Powers> all_magnitudes(test::Draws& draws, int n) {
   std::vector<Powers> all{{95, 0, 0},  {-97, 0, 0},    {0, 160, 0},     {0, -160, 0},   {0, 0, 95},
                           {0, 0, -89}, {95, 160, -89}, {-97, -160, 95}, {95, -160, 95}, {-97, 160, -89}};
@@ -304,13 +304,13 @@ TEST(Magnitude, EverythingIsTheSameAtAll) {
   expect_same_at_all_magnitudes(busy_text, 25);
 }
 
-// Any number of the scene may be anything: it is refused in one line, or each method goes on with finite numbers, the
-// same by both engines, or says that it cannot.
+// Any number of a scene may have any value: either it is refused in one line, or each method goes on with finite
+// numbers, the same in both engines, or says that it cannot.
 class AnyNumbers {
  public:
   explicit AnyNumbers(std::uint64_t seed) : draws_(seed) {}
 
-  // As in the busy scene, but each with a chance of being wild.
+  // The busy scene, in which each number may be replaced by an extreme one.
   std::string text() {
     std::string text =
         fmt::format("seed = {}\n[box]\nwidth = {}\nheight = {}\n", draws_.bits() % 1000, any(12.0), any(9.0));
@@ -340,7 +340,7 @@ class AnyNumbers {
   test::Draws draws_;
 };
 
-// What a run of some steps comes to: its figures, or what it says that it cannot do.
+// The result of a run of some steps: its figures, or its error.
 struct Course {
   std::vector<double> figures;
   std::string stopped;

@@ -1,4 +1,4 @@
-// How fast disks are and how often they collide, as estimated from the scene alone.
+// Speeds of disks and rates of collisions, estimated from the scene alone.
 #include "core/load/scene_scales.hpp"
 
 #include <gtest/gtest.h>
@@ -22,12 +22,12 @@ TEST(SceneScales, ScalesOfTheFluidAreThoseOfTheory) {
   EXPECT_DOUBLE_EQ(s.diameter, 1.0);
   EXPECT_NEAR(s.packing_fraction, 0.5, 1e-12);
   EXPECT_NEAR(s.speed, 1.0, 1e-12);
-  EXPECT_NEAR(s.collision_rate, 7.007, 0.02);  // docs/reference_values.md: Gamma at 0.5
+  EXPECT_NEAR(s.collision_rate, 7.007, 0.02);  // Gamma at 0.5, from docs/reference_values.md
   EXPECT_FALSE(s.settles);
   EXPECT_FALSE(s.may_collapse);
 }
 
-// What collisions share out: the energy of fast heavy disks goes to light ones, that of spins to the motion.
+// Collisions share out energy: that of fast heavy disks goes to light ones, that of spins to translation.
 TEST(SceneScales, LightDisksBecomeFast) {
   const auto speed = [](const std::string& heavy, const std::string& light, const std::string& physics) {
     const std::string disks = "positions = \"random\"\nradius = 0.1\ncount = 50\n";
@@ -35,7 +35,7 @@ TEST(SceneScales, LightDisksBecomeFast) {
                                 "[[disks]]\n" + disks + light + "[run]\nt_end = 1.0\n"))
         .speed;
   };
-  const double rms = std::sqrt(50.0 * 0.5 * (1.0 + 1.0 / 100.0));  // T = 50 in the mean of all, and that of 1 / m
+  const double rms = std::sqrt(50.0 * 0.5 * (1.0 + 1.0 / 100.0));  // the mean T = 50 and the mean of 1 / m
   EXPECT_NEAR(speed("mass = 100.0\nvelocities = { maxwell = 100.0 }\n", "mass = 1.0\n", ""), rms, 1e-12 * rms);
   const std::string rough = "[physics]\nroughness = { tangential_restitution = 1.0 }\n";
   const std::string spinning = "mass = 1.0\nspin_temperature = 30.0\n";
@@ -44,8 +44,8 @@ TEST(SceneScales, LightDisksBecomeFast) {
   EXPECT_NEAR(speed(turning, turning, rough), std::sqrt(50.0 / 3.0), 1e-12);
 }
 
-// Maxwell's speeds are those of each disk's own mass: of two masses, half of each, T / m on average. The fastest are
-// the light ones, or one that the scene lists as fast.
+// Maxwell's speeds depend on each disk's own mass: for two masses, each of half of the disks, they are the mean of T /
+// m. The fastest disks are the light ones, or one listed with a high speed.
 TEST(SceneScales, DrawnMassesHaveEachItsSpeed) {
   const auto scales = [](const std::string& disks) {
     return scales_of(scene_from("[box]\nwidth = 80.0\nheight = 80.0\n[[disks]]\npositions = \"random\"\n" + disks +
@@ -53,7 +53,7 @@ TEST(SceneScales, DrawnMassesHaveEachItsSpeed) {
   };
   const std::string many = "radius = 0.1\ncount = 2000\nvelocities = { maxwell = 2.0 }\n";
   const SceneScales two = scales(many + "mass = { choice = [1.0, 10000.0] }\n");
-  EXPECT_NEAR(two.speed, std::sqrt(2.0 * 0.5 * (1.0 + 1e-4)), 0.05) << "as many of each as were drawn";
+  EXPECT_NEAR(two.speed, std::sqrt(2.0 * 0.5 * (1.0 + 1e-4)), 0.05) << "by the numbers drawn of each mass";
   EXPECT_NEAR(two.fastest, fastest_share * std::sqrt(2.0), 0.05);
   const SceneScales few = scales(many + "mass = { choice = [1.0, 10000.0], weights = [1.0, 100.0] }\n");
   EXPECT_LT(few.speed, 0.3);
@@ -63,7 +63,7 @@ TEST(SceneScales, DrawnMassesHaveEachItsSpeed) {
   EXPECT_GE(scales(many + "mass = 1.0\n" + one + "count = 1\n").fastest, 90.0);
 }
 
-// Half the square of a drift and of a listed velocity goes to each component, until collisions share it out.
+// Half of the square of a drift or a listed velocity counts for each component, as collisions share it out.
 TEST(SceneScales, DriftsAndListsCountByTheirComponents) {
   const auto speed = [](const std::string& velocities, const std::string& others) {
     return scales_of(scene_from("[box]\nwidth = 20.0\nheight = 20.0\n[[disks]]\npositions = \"random\"\nradius = "
@@ -78,7 +78,7 @@ TEST(SceneScales, DriftsAndListsCountByTheirComponents) {
   }
 }
 
-// Of the disks that a source draws, not of its first alone.
+// All disks that a source may draw count, not only its first.
 TEST(SceneScales, SourcesHaveAllSizesThatTheyDraw) {
   const SceneScales s =
       scales_of(scene_from("[box]\nwidth = 80.0\nheight = 80.0\n[[sources]]\nside = \"left\"\n"
@@ -89,15 +89,15 @@ TEST(SceneScales, SourcesHaveAllSizesThatTheyDraw) {
   EXPECT_NEAR(s.diameter, 2.0 * std::sqrt((0.5 * 0.5 * 0.5 - 0.1 * 0.1 * 0.1) / (3.0 * 0.4)), 0.02);
 }
 
-// Z of docs/reference_values.md.
+// Z from docs/reference_values.md.
 TEST(SceneScales, CompressibilityIsThatOfTheVirialSeries) {
   EXPECT_DOUBLE_EQ(compressibility(0.0), 1.0);
   EXPECT_NEAR(compressibility(0.05) / 1.108388, 1.0, 1e-3);
   EXPECT_NEAR(compressibility(0.3) / 2.06326, 1.0, 1e-3);
-  EXPECT_NEAR(compressibility(0.5), 4.105, 1e-3 * 4.105 + 2e-3);  // which is known to 2e-3
+  EXPECT_NEAR(compressibility(0.5), 4.105, 1e-3 * 4.105 + 2e-3);  // the reference has an error of 2e-3
 }
 
-// The mean square of a component: v^2 / 3 of speeds between -v and v; (2 V)^2 where a wall comes on at V.
+// The mean square of a component: v^2 / 3 for speeds between -v and v; (2 V)^2 for a wall that moves at V.
 TEST(SceneScales, SpeedsAreThoseOfTheLawAndOfWalls) {
   const auto speed = [](const std::string& box, const std::string& disks) {
     return scales_of(scene_from("[box]\nwidth = 20.0\nheight = 20.0\n" + box +
@@ -109,8 +109,8 @@ TEST(SceneScales, SpeedsAreThoseOfTheLawAndOfWalls) {
   EXPECT_NEAR(speed("left = { motion = { velocity = [2.0, 0.0] } }\n", ""), 4.0, 1e-12);
 }
 
-// ln(4 / (1 - e)) / (1 - e) is 36.9 for e = 0.9: a column of so many collapses on a floor that loses nothing. A
-// viscoelastic gas does not, however much its fast disks lose.
+// ln(4 / (1 - e)) / (1 - e) is 36.9 for e = 0.9: a column of so many disks collapses on an elastic floor. A
+// viscoelastic gas does not collapse, however much its fast disks lose.
 TEST(SceneScales, CollapseNeedsAColumnOrALossAtRest) {
   const auto collapses = [](const std::string& physics, int count) {
     return scales_of(scene_from("[box]\nwidth = 20.0\nheight = 20.0\n[physics]\n" + physics +

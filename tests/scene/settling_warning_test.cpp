@@ -1,4 +1,5 @@
-// The warning of what pairwise loses of nearly elastic disks that settle: docs/methods.md has what was measured.
+// The warning of the energy that pairwise loses in excess when nearly elastic disks settle; docs/methods.md has
+// measurements.
 #include "core/load/settling_warning.hpp"
 
 #include <gmock/gmock.h>
@@ -9,7 +10,7 @@
 namespace carom {
 namespace {
 
-// Of 200 such disks 10 % too much was lost with e = 0.99, 119 % with 0.999, and 0.3 % with 0.9.
+// Of the energy of 200 such disks 10 % too much was lost with e = 0.99, 119 % with 0.999, and 0.3 % with 0.9.
 const std::string falling =
     "[box]\nwidth = 10.0\nheight = 20.0\n[[disks]]\ncount = 200\nradius = 0.3\nmass = 1.0\n"
     "positions = \"random\"\nvelocities = { maxwell = 1.0 }\n"
@@ -30,7 +31,7 @@ TEST(SettlingWarning, ComesNowhereElse) {
   EXPECT_THAT(warnings("physics.restitution", "0.9"), testing::IsEmpty());
   EXPECT_THAT(settling_warnings(test::scene_from(falling, {{"physics.restitution", "0.9"}, {"run.dt", "1.0"}})),
               testing::IsEmpty())
-      << "whatever the step";
+      << "for any step";
   EXPECT_THAT(warnings("physics.restitution", "1.0"), testing::IsEmpty());
   EXPECT_THAT(warnings("physics.gravity", "0.0"), testing::IsEmpty());
 }

@@ -1,4 +1,4 @@
-// Radii and masses drawn from distributions: their moments, their bounds, the same bits everywhere, and bad ones.
+// Radii and masses drawn from distributions: moments, limits, the same bits everywhere, and bad distributions.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ SizeLaw law_of(SizeLaw::Kind kind, double value, double deviation) {
   return law;
 }
 
-// Mean and standard deviation of f of so many radii.
+// Mean and standard deviation of f over this number of radii.
 struct Moments {
   double mean = 0.0, deviation = 0.0;
 };
@@ -44,7 +44,7 @@ Moments moments(const SizeLaw& law, const std::function<double(double)>& f) {
   return {mean, std::sqrt(squares / draws - mean * mean)};
 }
 
-// Four standard errors: of a mean s / sqrt(n), of a deviation s / sqrt(2 n).
+// Four standard errors: s / sqrt(n) for the mean, s / sqrt(2 n) for the standard deviation.
 const double of_mean = 4.0 / std::sqrt(static_cast<double>(draws));
 const double of_deviation = of_mean / std::sqrt(2.0);
 
@@ -82,7 +82,7 @@ TEST(SizeDistributions, RadiusAndMassOfADiskDoNotGoTogether) {
   EXPECT_NEAR(product / draws, 0.0, of_mean);
 }
 
-// Computed once; any other compiler or machine gives these bits.
+// The numbers were computed once; any other compiler or machine gives the same bits.
 TEST(SizeDistributions, BitsAreTheSameEverywhere) {
   const SizeLaw mass = law_of(SizeLaw::Kind::lognormal, 2.0, 0.7);
   const SizeLaw radius = law_of(SizeLaw::Kind::normal, 1.0, 0.2);

@@ -1,5 +1,5 @@
-// Inner walls along a side of the box: a disk that comes to both meets either. Belts at the top and at the right took
-// hold of half the disks without a word.
+// Inner walls along a side of the box: a disk that reaches both meets either of them. Belts at the top and at the right
+// once moved only half of the disks, without a warning.
 #include "core/load/wall_warnings.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ using test::sound_scene;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-// Of the sound scene, a box of 20 x 10, with a wall.
+// The warnings for the sound scene, a box of 20 x 10, with this wall.
 std::vector<std::string> warnings(const std::string& wall, const std::vector<Override>& sets = {}) {
   return wall_warnings(test::scene_from(replaced(sound_scene, "[run]", "[[walls]]\n" + wall + "\n[run]"), sets));
 }
@@ -42,7 +42,7 @@ TEST(WallWarnings, AWallThatDiffersFromTheSideBehindIt) {
                                     "take another method")));
 }
 
-// It was "gas.toml:0".
+// The message once began with "gas.toml:0".
 TEST(WallWarnings, AWallOfNoLineOfTheFileHasNone) {
   const std::vector<Override> sets{{"walls", "[{ points = [[4, 10], [9, 10]], restitution = 0.25 }]"}};
   EXPECT_THAT(wall_warnings(test::scene_from(sound_scene, sets)),
@@ -50,15 +50,15 @@ TEST(WallWarnings, AWallOfNoLineOfTheFileHasNone) {
 }
 
 TEST(WallWarnings, NoneOfOthers) {
-  EXPECT_THAT(warnings(along_top), IsEmpty()) << "the same as the side";
+  EXPECT_THAT(warnings(along_top), IsEmpty()) << "the wall acts as the side does";
   EXPECT_THAT(warnings(std::string(along_top) + "\nkind = \"sink\""), IsEmpty());
   EXPECT_THAT(warnings(std::string(along_top) + "\nrestitution = 0.25", {{"box.top", "\"sink\""}}), IsEmpty());
   EXPECT_THAT(warnings("points = [[4, 9.999], [9, 9.999]]\nrestitution = 0.25"), IsEmpty());
-  EXPECT_THAT(warnings("points = [[4, 10], [9, 9]]\nrestitution = 0.25"), IsEmpty()) << "touches it";
+  EXPECT_THAT(warnings("points = [[4, 10], [9, 9]]\nrestitution = 0.25"), IsEmpty()) << "it only touches the side";
 }
 
-// A belt under disks that rest on it: the load of a support has no part along the belt, and they stayed where they were
-// without a word.
+// A belt under disks that rest on it: the load of a support has no component along the belt, so they once stayed where
+// they were, without a warning.
 TEST(WallWarnings, ABeltUnderAPileTakesNothingAlong) {
   const std::vector<Override> pile{{"run.method", "pairwise"},
                                    {"run.dt", "0.001"},
@@ -80,7 +80,7 @@ TEST(WallWarnings, ABeltUnderAPileTakesNothingAlong) {
   EXPECT_THAT(with("points = [[4, 2], [9, 3]]\nmotion = { vibrate = [0, 0.1], period = 1 }", {}), testing::SizeIs(1));
   EXPECT_THAT(with("points = [[4, 2], [9, 2]]\nmotion = { vibrate = [0, 0.1], period = 1 }", {}), IsEmpty()) << "lifts";
   EXPECT_THAT(with("points = [[4, 2], [4, 7]]\nmotion = { vibrate = [0, 0.1], period = 1 }", {}), IsEmpty())
-      << "nothing lies on it";
+      << "no disk can rest on it";
   EXPECT_THAT(with("points = [[4, 2], [9, 2]]", {}), IsEmpty());
   EXPECT_THAT(with(belt, {{"run.method", "exact"}}), IsEmpty());
   EXPECT_THAT(with(belt, {{"physics.gravity", "0.0"}}), IsEmpty());

@@ -1,4 +1,4 @@
-// What walls and fixed disks mean for the choice of a method: the collisions that disks have with them.
+// Walls and fixed disks in the choice of a method: the collisions of disks with them count.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,8 +21,8 @@ double collisions(const Scene& scene, const State& start) {
   return static_cast<double>(engine->state().counters.collisions) / engine->state().time;
 }
 
-// In a slot of 1.1 diameters a disk meets the walls eight times between two others: steps that are short against these
-// alone lose 4.5 % of them.
+// In a slot of 1.1 diameters a disk meets the walls eight times between two collisions with disks: steps that are short
+// only for the latter would lose 4.5 % of them.
 TEST(WallsInTheWay, ASlotAsksForStepsThatAreShortAgainstItsWalls) {
   const std::string slot =
       "[box]\nwidth = 1190.0\nheight = 1.1\nleft = \"periodic\"\nright = \"periodic\"\n[[disks]]\ncount = 500\n"
@@ -35,7 +35,7 @@ TEST(WallsInTheWay, ASlotAsksForStepsThatAreShortAgainstItsWalls) {
   EXPECT_NEAR(collisions(scene, start) / exact, 1.0, 1e-2 + 3.0 * std::sqrt(2.0 / 60'000.0));
 }
 
-// As long a box without walls has none; fixed disks count by their circumference.
+// In an equal box without walls there are no such collisions; fixed disks count by their circumference.
 TEST(WallsInTheWay, WhatStandsInTheWayIsCountedAndPaidFor) {
   const auto choice = [](const std::string& fixed) {
     return choose_method(scene_from("[box]\nwidth = 50.0\nheight = 40.0\nleft = \"periodic\"\nright = \"periodic\"\n"
@@ -52,7 +52,7 @@ TEST(WallsInTheWay, WhatStandsInTheWayIsCountedAndPaidFor) {
   EXPECT_GT(pegs.offers.at(1).seconds, 10.0 * open.offers.at(1).seconds);
 }
 
-// Beside images that move its errors are not known: exact has none, and auto is refused.
+// Errors of pairwise with moving images are not known. exact has none, and "auto" is refused.
 TEST(WallsInTheWay, AShearedBoxLeavesExactAlone) {
   const Scene couette = load_scene(CAROM_SOURCE_DIR "/scenes/couette.toml");
   const MethodChoice choice = choose_method(couette, 0.03);
