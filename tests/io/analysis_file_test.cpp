@@ -1,4 +1,4 @@
-// The numbers and attributes of analysis.h5, of a record made by hand.
+// The numbers and attributes of analysis.h5, for a record made by hand.
 #include "io/tables/analysis_file.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ namespace {
 
 constexpr int samples = 64;
 
-// 64 samples, a time unit apart, and two rows of each profile. more: keys of the box.
+// 64 samples, one unit of time apart, and two rows of each profile. more: keys of the box.
 Scene measured_scene(const std::string& more) {
   return parse_scene(
       "[box]\nwidth = 8.0\nheight = 4.0\nleft = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\n"
@@ -39,7 +39,7 @@ Scene measured_scene(const std::string& more) {
       "scene", "");
 }
 
-// Two that are alike after two that are not: half as many samples as there seem to be.
+// Samples that are equal in pairs: half as many independent ones as there seem to be.
 double in_pairs(int k) {
   return k % 4 < 2 ? 3.0 : 1.0;
 }
@@ -129,13 +129,13 @@ TEST_F(AnalysisFile, SeriesHaveTheirMeansAndErrors) {
   write("");
   const SampleSeries series = made_by_hand(measured_scene("")).series;
   EXPECT_EQ(numbers("/samples/disks"), series.disks);
-  EXPECT_EQ(numbers("/displacement/disks"), series.followed) << "those that are still there";
+  EXPECT_EQ(numbers("/displacement/disks"), series.followed) << "disks that still exist";
   EXPECT_EQ(number("/displacement", "doubtful"), 5.0);
   EXPECT_DOUBLE_EQ(number("/displacement", "diffusion"), 3.0 / 4.0) << "4 D t in two dimensions";
-  // The mean of the first 3, for twice as long as the others.
+  // The first 3 counts for twice as long as the other samples.
   EXPECT_DOUBLE_EQ(number("/pressure", "mean"), (2.0 * samples + 3.0) / (samples + 1.0));
-  // By blocking, where samples are correlated: sqrt(2) of what it were if they were not. Of that mean: 32 blocks, 3 and
-  // 1 by turns, of which the first weighs 3 and the others 2.
+  // The samples are correlated, so the error by blocking is sqrt(2) times that of independent ones. It belongs to this
+  // mean: 32 blocks, 3 and 1 in turn, of which the first weighs 3 and the others 2.
   EXPECT_DOUBLE_EQ(number("/pressure", "standard_error"), blocking_error(series.pressure, series.interval));
   const double mean = 131.0 / 65.0,
                squares = (9.0 + 15.0 * 4.0) * std::pow(3.0 - mean, 2) + 64.0 * std::pow(1.0 - mean, 2);
@@ -144,7 +144,7 @@ TEST_F(AnalysisFile, SeriesHaveTheirMeansAndErrors) {
   EXPECT_DOUBLE_EQ(number("/bond_order", "global_mean"), 0.02);
 }
 
-// What the run's summary tells of it.
+// The means that the run's summary contains.
 TEST_F(AnalysisFile, HasTheMeansOfTheSummary) {
   const Scene scene = measured_scene("");
   const AnalysisRecord record = made_by_hand(scene);
@@ -168,7 +168,7 @@ TEST_F(AnalysisFile, HasTheMeansOfTheSummary) {
 
 TEST_F(AnalysisFile, CountsAreOverTheSamples) {
   write("");
-  EXPECT_EQ(number("/pair_correlation", "centres"), 7.0) << "in the mean";
+  EXPECT_EQ(number("/pair_correlation", "centres"), 7.0) << "mean number";
   EXPECT_EQ(number("/speeds", "beyond"), 6.0);
   EXPECT_EQ(number("/speeds", "temperature"), 1.5);
   EXPECT_EQ(word("/density", "axis"), "y");
@@ -186,7 +186,7 @@ TEST_F(AnalysisFile, ProfilesSayAlongWhichAxis) {
 
 TEST_F(AnalysisFile, RowsOfProfilesStandOneAfterTheOther) {
   write("");
-  // Slabs of 8 x 2, two samples a row.
+  // Slabs of 8 x 2, with two samples in a row.
   EXPECT_EQ(numbers("/density/rows/number_density"), (std::vector<double>{0.125, 0.0625, 0.125, 0.0625}));
   EXPECT_EQ(numbers("/density/rows/packing_fraction"), (std::vector<double>{0.03125, 0.015625, 0.03125, 0.015625}));
   EXPECT_EQ(numbers("/profile/rows/velocity_x"), (std::vector<double>{1.0, 2.0, 1.0, 2.0}));
@@ -194,7 +194,7 @@ TEST_F(AnalysisFile, RowsOfProfilesStandOneAfterTheOther) {
   EXPECT_EQ(numbers("/profile/position"), (std::vector<double>{2.0, 6.0}));
 }
 
-// Displacements across a shear flow are along y alone: 2 D t.
+// Displacements across a shear flow are along y only: 2 D t.
 TEST_F(AnalysisFile, DiffusionAcrossAShearFlowIsThatOfOneDimension) {
   write("shear_rate = 0.1\n");
   EXPECT_DOUBLE_EQ(number("/displacement", "diffusion"), 3.0 / 2.0);
@@ -233,7 +233,7 @@ TEST_F(AnalysisFile, ErrorsAndTimesOfRowsAreTheirOwn) {
   write(scene, record);
   EXPECT_NEAR(number("/displacement", "diffusion_error"), 0.0, 1e-12) << "of a straight line";
   EXPECT_EQ(number("/displacement", "diffusion_from"), 32.0) << "the second half of the samples";
-  EXPECT_NEAR(number("/pressure", "standard_deviation"), 1.0, 1e-2) << "of 3 and 1";
+  EXPECT_NEAR(number("/pressure", "standard_deviation"), 1.0, 1e-2) << "the deviation of 3 and 1";
   EXPECT_EQ(numbers("/density/rows/time"), (std::vector<double>{0.0, 32.0}));
   EXPECT_EQ(numbers("/profile/rows/time"), (std::vector<double>{0.0, 40.0}));
   EXPECT_EQ(numbers("/density/rows/samples"), (std::vector<double>{2.0, 5.0}));
@@ -241,7 +241,7 @@ TEST_F(AnalysisFile, ErrorsAndTimesOfRowsAreTheirOwn) {
   EXPECT_EQ(numbers("/profile/rows/disks"), (std::vector<double>{1.0, 1.0, 1.0, 1.0}));
 }
 
-// A run that ended before its first sample leaves a file as well.
+// A run that ended before its first sample writes a file, too.
 TEST_F(AnalysisFile, WithoutSamplesItsListsAreEmpty) {
   const Scene scene = measured_scene("");
   write(scene, empty_record(scene));
@@ -269,7 +269,7 @@ TEST_F(AnalysisFile, ItsCurvesAreReadBack) {
   EXPECT_EQ(curves["mean vy (position)"].y, (std::vector<double>{3.0, 4.0}));
 }
 
-// No more points than asked for, each with its own time.
+// At most as many points as asked for, each with its own time.
 TEST_F(AnalysisFile, OfLongCurvesEvenlyChosenPointsAreReadBack) {
   write("");
   for (const std::size_t most : {63U, 32U, 31U, 10U, 2U}) {
@@ -286,7 +286,7 @@ TEST_F(AnalysisFile, OfLongCurvesEvenlyChosenPointsAreReadBack) {
   EXPECT_EQ(found->x.back(), 62.0);
 }
 
-// Of a file in which they have other lengths, nothing is shown against times that are not theirs.
+// In a file whose curves have other lengths than their times, no curve may be shown with the wrong times.
 TEST_F(AnalysisFile, CurvesOfOtherLengthsThanTheirTimesAreLeftOut) {
   const Scene scene = measured_scene("");
   const auto has_autocorrelation = [&] {

@@ -1,4 +1,4 @@
-// The plots of [analysis] show what was measured: each its own numbers, beside what they are compared with.
+// The plots of [analysis] show the quantities measured, each with its own numbers, and what they are compared with.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -22,7 +22,7 @@ using Block = StandInGnuplot::Block;
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
-// A box of 10 by 20, periodic both ways, until time 4.
+// A box of 10 by 20, periodic along both axes, until time 4.
 Scene scene_with(const std::string& quantity, const std::string& more = "") {
   return parse_scene(fmt::format("[box]\nwidth = 10.0\nheight = 20.0\nleft = \"periodic\"\nright = \"periodic\"\n"
                                  "bottom = \"periodic\"\ntop = \"periodic\"\n[[disks]]\ncount = 10\n"
@@ -32,7 +32,7 @@ Scene scene_with(const std::string& quantity, const std::string& more = "") {
                      "scene", "");
 }
 
-// What is drawn of one quantity.
+// The data drawn for one quantity.
 struct Drawn {
   std::string script;
   std::vector<Block> blocks;
@@ -56,14 +56,14 @@ TEST(AnalysisPlotData, PressureAndRateHaveTheirSamplesAndTheirMean) {
   const Drawn pressure = drawn(scene_with("pressure"), fill), rate = drawn(scene_with("collision_rate"), fill);
   ASSERT_EQ(pressure.blocks.size(), 2U);
   EXPECT_EQ(pressure.blocks[0], (Block{{1.0, 2.0}, {4.0, 6.0}}));
-  EXPECT_EQ(pressure.blocks[1], (Block{{1.0, 5.0}, {4.0, 5.0}})) << "weighed by time";
+  EXPECT_EQ(pressure.blocks[1], (Block{{1.0, 5.0}, {4.0, 5.0}})) << "weighted by time";
   EXPECT_EQ(rate.blocks.at(0), (Block{{1.0, 1.0}, {4.0, 9.0}}));
   EXPECT_EQ(rate.blocks.at(1), (Block{{1.0, 7.0}, {4.0, 7.0}}));
   EXPECT_THAT(pressure.script, HasSubstr("set ylabel 'pressure'"));
   EXPECT_THAT(rate.script, HasSubstr("set ylabel 'collisions per disk and unit time'"));
 }
 
-// Pressure and collision rate are those of all disks, whatever is selected.
+// Pressure and collision rate are those of all disks, whatever group is selected.
 TEST(AnalysisPlotData, TheTitleNamesTheGroupThatIsMeasured) {
   const std::vector<std::pair<std::string, std::string>> subjects{
       {"pair_correlation", "pair correlation of A"},
@@ -101,12 +101,12 @@ TEST(AnalysisPlotData, OrderAndMemoryAreSeries) {
   EXPECT_EQ(order.blocks[0], (Block{{1.0, 0.5}, {2.0, 0.6}, {4.0, 0.7}}));
   EXPECT_EQ(order.blocks[1], (Block{{1.0, 0.1}, {2.0, 0.2}, {4.0, 0.3}}));
   const Drawn memory = drawn(scene_with("velocity_autocorrelation"), fill);
-  EXPECT_EQ(memory.blocks.at(0), (Block{{0.0, 1.0}, {1.0, 0.5}, {3.0, 0.25}})) << "since the first sample";
+  EXPECT_EQ(memory.blocks.at(0), (Block{{0.0, 1.0}, {1.0, 0.5}, {3.0, 0.25}})) << "times since the first sample";
   EXPECT_THAT(memory.script, HasSubstr("set xrange [0:3]"));
   EXPECT_EQ(drawn(scene_with("bond_autocorrelation"), fill).blocks.at(0), (Block{{0.0, 0.9}, {1.0, 0.8}, {3.0, 0.7}}));
 }
 
-// 2 t^2 up to 4, then 8 t: the guides t^2 and t go through the first and the last point.
+// 2 t^2 up to 4, then 8 t: the guides for t^2 and t go through the first and the last point.
 TEST(AnalysisPlotData, GuidesOfTheDisplacementGoThroughItsEnds) {
   const Drawn all = drawn(scene_with("displacement"), [](AnalysisRecord& record) {
     record.series.time = {1.0, 2.0, 5.0, 17.0};
@@ -116,16 +116,16 @@ TEST(AnalysisPlotData, GuidesOfTheDisplacementGoThroughItsEnds) {
   EXPECT_EQ(all.blocks[0], (Block{{1.0, 2.0}, {4.0, 32.0}, {16.0, 128.0}}));
   ASSERT_EQ(all.blocks[1].size(), 2U);
   EXPECT_NEAR(all.blocks[1][0][1], 2.0, 1e-12);
-  EXPECT_NEAR(all.blocks[1][1][0], 8.0, 1e-12) << "as high as the curve";
+  EXPECT_NEAR(all.blocks[1][1][0], 8.0, 1e-12) << "the guide ends as high as the curve";
   EXPECT_NEAR(all.blocks[1][1][1], 128.0, 1e-9);
   ASSERT_EQ(all.blocks[2].size(), 2U);
-  EXPECT_NEAR(all.blocks[2][0][0], 1.0, 1e-12) << "no further than the curve";
+  EXPECT_NEAR(all.blocks[2][0][0], 1.0, 1e-12) << "the guide goes no further than the curve";
   EXPECT_NEAR(all.blocks[2][0][1], 8.0, 1e-12);
   EXPECT_NEAR(all.blocks[2][1][0], 16.0, 1e-12);
   EXPECT_NEAR(all.blocks[2][1][1], 128.0, 1e-9);
 }
 
-// No logarithmic axis has a zero: until the first kick or collision no disk has moved.
+// A logarithmic axis has no zero: until the first kick or collision no disk has moved.
 TEST(AnalysisPlotData, DisksAtRestHaveNoPointOfTheDisplacement) {
   const Drawn all = drawn(scene_with("displacement"), [](AnalysisRecord& record) {
     record.series.time = {1.0, 2.0, 5.0, 17.0};
@@ -138,7 +138,7 @@ TEST(AnalysisPlotData, ProfilesSayAlongWhichAxis) {
   for (const auto& [axis, length] : {std::pair{"x", 10.0}, std::pair{"y", 20.0}}) {
     const Scene density = scene_with("density", fmt::format("density = {{ axis = \"{}\", bins = 4 }}", axis));
     const Drawn all = drawn(density, [&](AnalysisRecord& record) {
-      record.density.covered = {5.0, 10.0, 15.0, 20.0};  // of 50 each
+      record.density.covered = {5.0, 10.0, 15.0, 20.0};  // each of four slabs of area 50
       record.density.samples = 1;
     });
     ASSERT_EQ(all.blocks.size(), 2U);
@@ -174,14 +174,14 @@ TEST(AnalysisPlotData, SpeedsAreComparedWithMaxwell) {
   });
   ASSERT_EQ(all.blocks.size(), 2U);
   EXPECT_EQ(all.blocks[0], (Block{{0.5, 0.1}, {1.5, 0.3}, {2.5, 0.4}}));
-  ASSERT_EQ(all.blocks[1].size(), 3U) << "as far as there is anything to see";
+  ASSERT_EQ(all.blocks[1].size(), 3U) << "the axis ends where there is nothing more to see";
   EXPECT_NEAR(all.blocks[1][0][1], 1.0 - std::exp(-0.5), 1e-12);
   const Drawn slow = drawn(scene, [](AnalysisRecord& record) {
     record.speeds.counts = {10, 0, 0, 0, 0, 0, 0, 0, 0, 0};
     record.speeds.samples = 1;
     record.speeds.largest_seen = 0.9;
   });
-  EXPECT_EQ(slow.blocks.at(1).size(), 3U) << "3 at least";
+  EXPECT_EQ(slow.blocks.at(1).size(), 3U) << "the axis goes to 3 at least";
 }
 
 TEST(AnalysisPlotData, StructureIsThatAlongItsAxis) {
@@ -202,7 +202,7 @@ TEST(AnalysisPlotData, StructureIsThatAlongItsAxis) {
   EXPECT_EQ(all.blocks[2].at(1).at(1), 1.0);
 }
 
-// Of all disks, of the pairs of groups, and of disks strewn at random.
+// For all disks, for the pairs of groups, and the value of disks placed at random.
 TEST(AnalysisPlotData, PairCorrelationsAreThoseOfTheirGroups) {
   const Scene scene = parse_scene(
       "[box]\nwidth = 10.0\nheight = 20.0\n[[disks]]\nname = \"a\"\ncount = 5\npositions = \"random\"\nradius = 0.1\n"

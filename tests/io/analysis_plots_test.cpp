@@ -1,4 +1,4 @@
-// The plots of [analysis] show all that there is.
+// The plots of [analysis] show all data.
 #include "io/plots/analysis_plots.hpp"
 
 #include <gmock/gmock.h>
@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// Wave numbers are multiples of 2 pi / 5 along x, and of 2 pi / 20 along y; or the other way round.
+// Wave numbers are multiples of 2 pi / 5 along x, and of 2 pi / 20 along y; or the reverse.
 TEST(AnalysisPlots, TheStructureFactorIsShownToTheLastWaveAlongEitherAxis) {
   const test::TestFolder folder("analysis_plots");
   for (const std::string box : {"width = 5.0\nheight = 20.0\n", "width = 20.0\nheight = 5.0\n"}) {
@@ -27,7 +27,7 @@ TEST(AnalysisPlots, TheStructureFactorIsShownToTheLastWaveAlongEitherAxis) {
     record.structure.along_y.assign(10, 2.0);
     record.structure.samples = 1;
     ASSERT_TRUE(draw_analysis(folder.path().string(), scene, record));
-    // The last are at 12.6 and 3.1: the axis has a number beside each even one.
+    // The last ones are 12.6 and 3.1; the axis has a number at each even one.
     const std::string svg = test::text_of(folder.path() / "structure_factor.svg");
     for (const char* const shown : {">12<", ">along x<", ">along y<", ">ideal gas<"}) {
       EXPECT_THAT(svg, HasSubstr(shown)) << box;
@@ -35,7 +35,7 @@ TEST(AnalysisPlots, TheStructureFactorIsShownToTheLastWaveAlongEitherAxis) {
   }
 }
 
-// Above a bed of disks there are none: the profile ends there, and nothing has gone from it.
+// There are no disks above a bed: the profile ends there, and no data are missing.
 TEST(AnalysisPlots, AProfileThatEndsWithTheDisksIsNotGone) {
   const test::TestFolder folder("analysis_profile");
   const Scene scene = parse_scene(

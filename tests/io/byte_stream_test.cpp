@@ -1,4 +1,4 @@
-// The bytes of checkpoints: what is written is read back, and what breaks off or says too much is refused.
+// The bytes of checkpoints: data written are read back, and data that end too early or have wrong lengths are refused.
 #include "io/files/byte_stream.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ std::string written(const Parts&... parts) {
   return bytes;
 }
 
-// Reads from bytes of which the reader is told the first `left`; returns what it complains of.
+// Reads the parts; the reader is told that there are `left` bytes. Returns the error.
 template <class... Parts>
 std::string complaint(const std::string& bytes, std::size_t left, Parts&... parts) {
   std::size_t at = 0;
@@ -41,7 +41,7 @@ std::string complaint(const std::string& bytes, std::size_t left, Parts&... part
   return "";
 }
 
-// Whatever stands where it is read to goes.
+// The variables read into have other contents before, which must vanish.
 TEST(ByteStream, ReadsBackWhatWasWritten) {
   const std::vector<std::string> names{"a", "", "bc"};
   const std::vector<double> numbers{0.5, -0.0};
@@ -71,7 +71,7 @@ TEST(ByteStream, RefusesWhatBreaksOff) {
   EXPECT_EQ(complaint("\x02", 1, flag), "has a flag that is neither 0 nor 1");
 }
 
-// Of two words that differ in their highest bit, which no product carries further, each counts.
+// In words that differ in their highest bit, which a product does not carry further, each must count.
 TEST(BlockHash, SeesEachBit) {
   const auto hash_of = [](std::vector<std::uint64_t> words) {
     BlockHash hash;

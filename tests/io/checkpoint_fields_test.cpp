@@ -1,6 +1,6 @@
-// checkpoint_fields.hpp names the members of each struct twice: in a structured binding, which compiles only if it has
-// all of them, and in what is written and read. A member that the second list lacks would be forgotten by every resumed
-// run, and a checkpoint that is written again would be the same all the same.
+// checkpoint_fields.hpp names the members of each struct twice: in a structured binding, which compiles only with all
+// of them, and in the list that is written and read. A member missing in the second list would be lost in every resumed
+// run, and no comparison of checkpoints would show it.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -28,7 +28,7 @@ TEST(CheckpointFields, WritesAllThatItTakesApart) {
   }
   const std::regex heads("template <class Stream, Is<");
   const auto all = std::distance(std::sregex_iterator(source.begin(), source.end(), heads), std::sregex_iterator());
-  EXPECT_EQ(structs, static_cast<std::size_t>(all)) << "functions of another form";
+  EXPECT_EQ(structs, static_cast<std::size_t>(all)) << "some functions have another form";
   EXPECT_GT(structs, 30U);
 }
 

@@ -1,4 +1,4 @@
-// Which checkpoint of a run is found, what is said where there is none, and contents that no run writes.
+// Which checkpoint of a run is found, the error if there is none, and contents that no run writes.
 #include "io/checkpoint/checkpoint_place.hpp"
 
 #include <gmock/gmock.h>
@@ -52,7 +52,7 @@ class CheckpointFolder : public ::testing::Test {
   const fs::path unfinished_ = run_ / unfinished_name;
 };
 
-// A power cut may come where the newest has no name, on file systems without hard links.
+// On file systems without hard links a power cut may come when the newest checkpoint has no name.
 TEST_F(CheckpointFolder, TheOneBeforeServesWhereItIsAlone) {
   save(unfinished_ / previous_checkpoint_name);
   const CheckpointPlace place = find_checkpoint(run_.string());
@@ -61,13 +61,13 @@ TEST_F(CheckpointFolder, TheOneBeforeServesWhereItIsAlone) {
   EXPECT_FALSE(place.finished);
 }
 
-// Of a run that goes on after its end, that of the unfinished part comes first.
+// If a finished run was continued, the checkpoint of its unfinished part comes first.
 TEST_F(CheckpointFolder, TheUnfinishedPartComesFirst) {
   save(run_ / checkpoint_name);
   EXPECT_TRUE(find_checkpoint(run_.string()).finished);
   save(unfinished_ / checkpoint_name);
   EXPECT_FALSE(find_checkpoint(run_.string()).finished);
-  EXPECT_TRUE(find_checkpoint((run_ / checkpoint_name).string()).finished) << "but where it is named itself";
+  EXPECT_TRUE(find_checkpoint((run_ / checkpoint_name).string()).finished) << "but this names the file itself";
 }
 
 TEST_F(CheckpointFolder, IsFoundFromWithin) {
@@ -108,8 +108,8 @@ TEST_F(CheckpointFolder, TheOneBeforeIsNamedWhereItHelps) {
   const std::string scene = folder_.write("run/" + std::string(unfinished_name) + "/scene.toml", "[box]\n");
   EXPECT_THAT(complaint_of([&] { read_checkpoint_at(find_checkpoint(scene)); }),
               EndsWith("expected a checkpoint.carom, or the folder of a run"))
-      << "which the user took for one; checkpoint.carom may be whole";
-  // It has none before itself.
+      << "the user took this file for a checkpoint; checkpoint.carom may be whole";
+  // There is no checkpoint before the previous one.
   folder_.write("run/" + std::string(unfinished_name) + "/" + previous_checkpoint_name,
                 test::text_of(unfinished_ / previous_checkpoint_name).substr(0, 100));
   const std::string previous = (unfinished_ / previous_checkpoint_name).string();
@@ -117,7 +117,7 @@ TEST_F(CheckpointFolder, TheOneBeforeIsNamedWhereItHelps) {
   EXPECT_EQ(said, previous + ": is damaged: it was cut short or changed after it was written");
 }
 
-// Neither one waits for what will never come.
+// Neither reader may wait for a writer that never comes.
 TEST_F(CheckpointFolder, APipeIsNoCheckpoint) {
   const std::string pipe = (unfinished_ / checkpoint_name).string();
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
@@ -129,7 +129,7 @@ TEST_F(CheckpointFolder, APipeIsNoCheckpoint) {
 
 class CheckpointBytes : public ::testing::Test {
  protected:
-  // What reading these bytes complains of, from memory, from a file, and with its disks left there.
+  // The error for these bytes, which must be the same from memory, from a file, and in pieces.
   std::string complaint(const std::string& bytes) const {
     const std::string file = folder_.write("c.carom", bytes);
     const std::string said = complaint_of([&] { checkpoint_from_bytes(bytes, file); });
@@ -140,7 +140,7 @@ class CheckpointBytes : public ::testing::Test {
   std::string complaint(const RunRecord& record, const State& state) const {
     return complaint(checkpoint_bytes(record, state));
   }
-  // With so many bytes of content, and a checksum that goes with it.
+  // The bytes with this length of content, and a matching checksum.
   static std::string signed_again(std::string bytes, std::uint64_t content) {
     std::memcpy(&bytes[bytes.size() - 16], &content, 8);
     BlockHash hash;
@@ -166,7 +166,7 @@ TEST_F(CheckpointBytes, AChangedBitIsSeenWhereverTheyLie) {
   }
 }
 
-// What a new checkpoint may take the place of: another one, or a file that is empty.
+// A new checkpoint may replace an older one, or an empty file.
 TEST_F(CheckpointBytes, AnotherFileIsOneThatHoldsSomethingElse) {
   EXPECT_FALSE(is_another_file(folder_.write("c.carom", checkpoint_bytes({}, two_disks()))));
   EXPECT_FALSE(is_another_file(folder_.write("empty", "")));
@@ -229,7 +229,7 @@ TEST_F(CheckpointBytes, ItNamesFilesOfItsFolderAlone) {
   EXPECT_EQ(complaint(record, two_disks()), "");
 }
 
-// What must be there for a run to go on, with so many bytes.
+// A run can go on only if these files exist with at least these lengths.
 TEST(OutputMarks, AllFilesOfARunAreMissedWhereTheyAreGone) {
   OutputMark mark;
   EXPECT_TRUE(files_of(mark).empty());
@@ -247,11 +247,11 @@ TEST(OutputMarks, AllFilesOfARunAreMissedWhereTheyAreGone) {
   EXPECT_EQ(said(), "trajectory.xyz:500 series.csv:90 frames:0 ");
 }
 
-// A flag is 0 or 1, and no list is longer than what is left of the file, however wide its entries.
+// A flag must be 0 or 1, and no list may be longer than the rest of the file, given the size of its entries.
 TEST_F(CheckpointBytes, FlagsAndLengthsAreChecked) {
   State state = two_disks();
   const std::string whole = checkpoint_bytes({}, state);
-  // Columns begin with their length: two entries, then 0 and 1, the places of the disks.
+  // Columns start with their length: here two entries, then 0 and 1, the positions of the disks.
   const std::uint64_t two = 2;
   const double places[] = {0.0, 1.0};
   std::string column(reinterpret_cast<const char*>(&two), 8);

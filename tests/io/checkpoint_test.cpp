@@ -1,4 +1,4 @@
-// A checkpoint is what was written, to the bit, or it is refused.
+// A checkpoint has exactly what was written, bit by bit, or it is refused.
 #include "io/checkpoint/checkpoint.hpp"
 
 #include <gmock/gmock.h>
@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
-// Something in every field, the awkward values among them.
+// A state with something in every field, including unusual values.
 State full_state() {
   State s;
   append(s.disks, {1.5, -0.0, 5e-324, 3.0, 0.5, 2.0, 4});
@@ -106,7 +106,7 @@ class CheckpointFile : public ::testing::Test {
   }
   std::string path() const { return (folder_.path() / checkpoint_name).string(); }
 
-  // What reading the file complains of, in pieces as whole; empty if it is taken.
+  // The error when the file is read, which must be the same in pieces; empty if the file is accepted.
   static std::string complaint_of(const std::string& file) {
     const std::string complaint = complaint_of([&] { read_checkpoint(file); }, file);
     EXPECT_EQ(complaint_of([&] { read_checkpoint_in_pieces(file); }, file), complaint);
@@ -141,7 +141,7 @@ TEST_F(CheckpointFile, GivesBackEveryBit) {
   EXPECT_EQ(back.record.outputs.movie->parts, (std::vector<std::string>{"a.mp4", "b.mp4"}));
 }
 
-// Gives its lists an entry at a time, and has none of them itself.
+// Gives its lists entry by entry, and does not hold them itself.
 class EntryByEntry final : public StatePieces {
  public:
   explicit EntryByEntry(const State& state) : whole_(state), part_(state) {
@@ -182,7 +182,7 @@ TEST_F(CheckpointFile, OfPiecesIsThatOfTheWhole) {
   EXPECT_TRUE(bytes == encode_checkpoint(full_record(), state));
 }
 
-// Whatever list breaks off: no whole file has half a state.
+// If any list breaks off, no whole file with half a state may result.
 TEST_F(CheckpointFile, PiecesThatBreakOffHarmNoOther) {
   const State state = full_state();
   save_checkpoint(folder_.path().string(), full_record(), WholeState(state));
@@ -199,7 +199,7 @@ TEST_F(CheckpointFile, PiecesThatBreakOffHarmNoOther) {
   EXPECT_EQ(bytes_of(path()), whole_);
 }
 
-// Disks that stay in the file and are read some at a time, with all columns and with few.
+// Disks that stay in the file and are read in pieces, with all columns and with few.
 TEST_F(CheckpointFile, GivesBackItsDisksInPieces) {
   State all = full_state();
   all.next_id = 200'000;
@@ -224,7 +224,7 @@ TEST_F(CheckpointFile, GivesBackItsDisksInPieces) {
   }
 }
 
-// One with an id that is not given yet is found wherever it is in the file.
+// A disk with an id that has not been given yet is found anywhere in the file.
 TEST_F(CheckpointFile, ADiskThatWasNeverMadeIsRefusedBeyondTheFirstPiece) {
   State state;
   state.next_id = static_cast<DiskId>(disks_of_a_read + 2);
@@ -273,7 +273,7 @@ TEST_F(CheckpointFile, EveryOtherLengthIsRefused) {
 }
 
 TEST_F(CheckpointFile, ZerosInPlaceOfABlockAreRefused) {
-  // What a power cut leaves where the file system stored the length before the content.
+  // A power cut leaves such a file if the file system stored the length before the content.
   for (std::size_t at = 0; at + 16 < whole_.size(); at += 8) {
     std::string holed = whole_;
     holed.replace(at, 16, std::string(16, '\0'));
@@ -282,7 +282,7 @@ TEST_F(CheckpointFile, ZerosInPlaceOfABlockAreRefused) {
   }
 }
 
-// The same file with another header, and a checksum that goes with it.
+// The file with another word in its header, and a matching checksum.
 std::string with_header(std::string file, std::size_t at, std::uint64_t word) {
   std::memcpy(&file[at], &word, 8);
   BlockHash hash;
@@ -321,7 +321,8 @@ TEST_F(CheckpointFile, ContentThatContradictsItselfIsRefused) {
               HasSubstr("outside its folder"));
 }
 
-// Behind a checksum that is right, anything may stand: it is taken or refused, and no length in it is used unchecked.
+// With a right checksum the content may be anything: it is accepted or refused, and no length in it is used without a
+// check.
 TEST(CheckpointContent, ChangedAtRandomItIsTakenOrRefused) {
   const std::string whole = encode_checkpoint(full_record(), full_state());
   int refused = 0;

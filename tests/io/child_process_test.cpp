@@ -1,4 +1,4 @@
-// Programs that run beside us: which one is found, what it is fed, and how it ended. Words for the shell.
+// Child processes: which program is found, its input, and how it ended; and quoting for the shell.
 #include "io/files/child_process.hpp"
 
 #include <gmock/gmock.h>
@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// PATH as it was, once this goes.
+// Restores PATH at the end of its life.
 class SearchPath {
  public:
   explicit SearchPath(const std::string& path) { setenv("PATH", path.c_str(), 1); }
@@ -48,7 +48,7 @@ class Child : public ::testing::Test {
   const test::TestFolder folder_{::testing::UnitTest::GetInstance()->current_test_info()->name()};
 };
 
-// Folders and files that cannot be run have the name, too.
+// Folders, and files that cannot be executed, with the same name must be skipped.
 TEST_F(Child, TheFirstThatCanBeRunIsFound) {
   fs::create_directories(at("a/tool"));
   fs::create_directories(at("b"));
@@ -60,7 +60,7 @@ TEST_F(Child, TheFirstThatCanBeRunIsFound) {
   EXPECT_EQ(find_program("another"), "");
 }
 
-// The child starts in another folder than the one that a relative entry of PATH is meant from.
+// The child starts in another folder than the one to which a relative entry of PATH refers.
 TEST_F(Child, OneInARelativeFolderOfThePathIsStartedFromAnywhere) {
   make_program("bin/tool");
   const SearchPath path(fs::relative(at("bin")).string());
@@ -70,7 +70,7 @@ TEST_F(Child, OneInARelativeFolderOfThePathIsStartedFromAnywhere) {
   EXPECT_EQ(ChildProcess({tool}, at("elsewhere"), at("log")).wait(), 0);
 }
 
-// There is one error for the program and for the log: the one that cannot be opened is named.
+// One error covers both the program and the log: it must name the one that cannot be opened.
 TEST_F(Child, WhatDoesNotLetItStartIsNamed) {
   const auto said = [&](const std::string& program, const std::string& log) -> std::string {
     try {
@@ -90,7 +90,7 @@ TEST_F(Child, IsFedAndItsEndIsTold) {
   EXPECT_TRUE(counting.write(text.data(), text.size()));
   EXPECT_EQ(counting.wait(), 7);
   EXPECT_THAT(test::text_of(at("counted")), testing::HasSubstr("1000000"));
-  EXPECT_EQ(last_line(at("log")), fs::canonical(folder_.path()).string()) << "it runs in the folder";
+  EXPECT_EQ(last_line(at("log")), fs::canonical(folder_.path()).string()) << "it must run in the folder";
   EXPECT_EQ(shell("kill -KILL $$").wait(), 128 + SIGKILL);
   EXPECT_THROW(ChildProcess({at("none")}, at("."), at("log")), RunError);
 }
@@ -102,7 +102,7 @@ TEST_F(Child, OneThatIsGoneTakesNothingMore) {
   EXPECT_EQ(gone.wait(), 0);
 }
 
-// A pipe takes a part of what is written where a signal comes in between.
+// If a signal comes in between, a pipe accepts only a part of what is written.
 TEST_F(Child, WhatASignalInterruptsIsWrittenInFull) {
   std::string text(4'000'000, ' ');
   for (std::size_t k = 0; k < text.size(); ++k) text[k] = static_cast<char>('a' + k % 23);
@@ -126,7 +126,7 @@ TEST_F(Child, OneThatIsNotWantedAnyMoreIsKilled) {
   EXPECT_LT(seconds_since(start), 20.0);
 }
 
-// A terminal sends its signals to the whole group of the process, and a batch system to each process of a job.
+// A terminal sends its signals to the whole process group, and a batch system to each process of a job.
 TEST_F(Child, SignalsForUsDoNotReachIt) {
   EXPECT_EQ(shell("kill -TERM $$; echo alive").wait(), 0);
   EXPECT_EQ(last_line(at("log")), "alive");
@@ -138,7 +138,7 @@ TEST_F(Child, SignalsForUsDoNotReachIt) {
   EXPECT_EQ(group, process);
 }
 
-// What a run of a sweep starts itself is not the sweep's.
+// Processes that a run of a sweep starts do not inherit the sweep as their parent.
 TEST_F(Child, AParentIsThatOfTheChildAlone) {
   const auto begin = [](const std::string& parent) {
     setenv("CAROM_PARENT", parent.c_str(), 1);
@@ -146,7 +146,7 @@ TEST_F(Child, AParentIsThatOfTheChildAlone) {
     std::_Exit(getenv("CAROM_PARENT") == nullptr ? 0 : 1);
   };
   EXPECT_EXIT(begin(std::to_string(getppid())), testing::ExitedWithCode(0), "");
-  EXPECT_EXIT(begin("1234567890"), testing::KilledBySignal(SIGTERM), "") << "it has died before";
+  EXPECT_EXIT(begin("1234567890"), testing::KilledBySignal(SIGTERM), "") << "the parent has died before";
 }
 
 TEST_F(Child, ItsLastWordIsTheLastLineThatSaysAnything) {
@@ -156,7 +156,7 @@ TEST_F(Child, ItsLastWordIsTheLastLineThatSaysAnything) {
   EXPECT_EQ(last_line(at("none")), "");
 }
 
-// As the shell itself reads them.
+// Compared with how the shell reads them.
 TEST(ShellWord, IsOneWordToTheShell) {
   EXPECT_EQ(shell_word("out/gas-1.5_b,c:d+e@f%g=h"), "out/gas-1.5_b,c:d+e@f%g=h");
   EXPECT_EQ(shell_word("\xc3\xa9"), "\xc3\xa9");

@@ -23,7 +23,7 @@ TEST(DiskRaster, AreaIsThatOfTheDisk) {
   }
 }
 
-// In a mixture no size is a border beyond which disks look different.
+// In a mixture no radius must be a border beyond which disks look different.
 TEST(DiskRaster, RimsComeGraduallyWithTheRadius) {
   const auto image_of = [](double r) {
     std::array<std::uint32_t, 32 * 32> image{};
@@ -40,7 +40,7 @@ TEST(DiskRaster, RimsComeGraduallyWithTheRadius) {
   EXPECT_NEAR(rim_shade(6.0), 0.35, 1e-12);
 }
 
-// Pixel by pixel as the shares of a pixel say: what covers it, and how much of that lies within the rim.
+// Each pixel has the colour given by the shares of it that the disk and its inner part cover.
 TEST(DiskRaster, PixelsAreThoseOfTheFormula) {
   constexpr int side = 48;
   std::mt19937 random(7);
@@ -76,7 +76,7 @@ TEST(DiskRaster, PixelsAreThoseOfTheFormula) {
   }
 }
 
-// A disk smaller than a pixel is seen in the corners of the area, too.
+// A disk smaller than a pixel is visible in the corners of the area, too.
 TEST(DiskRaster, TheAreaIsFilledToItsEdges) {
   for (const int column : {4, 11}) {
     for (const int row : {4, 11}) {

@@ -1,4 +1,4 @@
-// What stands around the box in a picture says what is in it: words are compared by the ink that they take.
+// The legend of a picture describes its content. Words are compared by the ink they take.
 #include "io/movie/frame_legend.hpp"
 
 #include <gmock/gmock.h>
@@ -29,7 +29,7 @@ FrameStyle square_style() {
   return {"", square_box(10.0), 1.0, 1};
 }
 
-// shape_in looks at what was painted last.
+// The painter after a frame without disks, for shape_in.
 FramePainter& drawn(FramePainter& painter) {
   painter.paint({}, 0.0);
   return painter;
@@ -40,7 +40,7 @@ std::uint64_t words_in(const FrameStyle& style, const PixelRange& range) {
   return shape_in(drawn(painter), range);
 }
 
-// Words as the list of groups has them.
+// The shape of these words as the list of groups draws them.
 std::uint64_t listed(const std::string& words) {
   FrameStyle style = square_style();
   style.look.colour = ColourBy::group;
@@ -49,7 +49,7 @@ std::uint64_t listed(const std::string& words) {
   return words_in(style, {width - 84, width, 74, 100});
 }
 
-// The words at the lower and at the upper end of the colour bar.
+// The words at the lower and the upper end of the colour bar.
 constexpr PixelRange low_words{width - 67, width, bar_low - 12, bar_low + 12},
     high_words{width - 67, width, bar_high - 12, bar_high + 12};
 
@@ -75,19 +75,19 @@ TEST(FrameLegend, TheColourBarGoesFromItsLowestValueUp) {
   }
   EXPECT_EQ(shape_in(painter, low_words), listed("-2"));
   EXPECT_EQ(shape_in(painter, high_words), listed("3"));
-  EXPECT_EQ(words_in(style, {width - 67, width, 713, 735}), listed("-1")) << "a fifth of 5 each";
+  EXPECT_EQ(words_in(style, {width - 67, width, 713, 735}), listed("-1")) << "each mark is a fifth of 5";
 }
 
-// Where disks may lie beyond an end of the scale, the end says so.
+// If disks may lie beyond an end of the scale, that end says so.
 TEST(FrameLegend, EndsOfTheScaleSayWhatLiesBeyond) {
   FrameStyle style = square_style();
   style.high = 4.0;
-  EXPECT_EQ(words_in(style, low_words), listed("0")) << "no speed is less";
-  EXPECT_EQ(words_in(style, high_words), listed("≥ 4")) << "speeds are a prediction";
+  EXPECT_EQ(words_in(style, low_words), listed("0")) << "no speed is below";
+  EXPECT_EQ(words_in(style, high_words), listed("≥ 4")) << "the highest speed is a prediction";
   style.look.colour = ColourBy::mass;
   EXPECT_EQ(words_in(style, high_words), listed("4"));
   style.look.range = {0.0, 4.0};
-  EXPECT_EQ(words_in(style, low_words), listed("0")) << "no mass is less";
+  EXPECT_EQ(words_in(style, low_words), listed("0")) << "no mass is below";
   EXPECT_EQ(words_in(style, high_words), listed("≥ 4"));
   style.look.range = {1.0, 4.0};
   style.low = 1.0;
@@ -95,7 +95,8 @@ TEST(FrameLegend, EndsOfTheScaleSayWhatLiesBeyond) {
   EXPECT_EQ(words_in(style, high_words), listed("≥ 4"));
 }
 
-// 3 is cut into three, 2 into four: numbers that are short, and the more of two that are as short.
+// 3 is divided into three and 60 into five: numbers that are short, and the finer of two divisions with equally short
+// ones.
 TEST(FrameLegend, TheScaleIsCutWhereNumbersAreShort) {
   FrameStyle style = square_style();
   style.look.colour = ColourBy::mass;
@@ -130,12 +131,12 @@ TEST(FrameLegend, GroupsHaveTheirNamesOrNumbers) {
   EXPECT_EQ(line(3), 0U);
 }
 
-// Twenty, or as many as there is room for; of the rest the number, which stands where the next square would.
+// Twenty groups, or as many as there is room for, and then the number of the others, in place of the next square.
 TEST(FrameLegend, GroupsThatAreNotListedAreCounted) {
   FrameStyle style = square_style();
   style.look.colour = ColourBy::group;
   FrameStyle low = style;
-  low.box.height = 2.0;  // room for 300 pixels: ten squares and the number
+  low.box.height = 2.0;  // room for 300 pixels: ten squares and a number
   const auto behind_twenty = [&](DiskId groups) {
     style.groups = groups;
     return words_in(style, {width - 108, width, 74 + 26 * 20, 98 + 26 * 20});
@@ -153,7 +154,7 @@ TEST(FrameLegend, GroupsThatAreNotListedAreCounted) {
   EXPECT_EQ(behind_ten(23, 2), 0U);
 }
 
-// The kinds of side, in a row below the box; inner walls count.
+// The kinds of sides are listed in a row below the box; inner walls count.
 TEST(FrameLegend, KindsOfSideAreNamedWhereThereAreOthersThanWalls) {
   const PixelRange row{0, width, 898, height};
   const auto word = [](int k) { return PixelRange{28 + 134 * k + 38, 28 + 134 * k + 120, 890, height}; };
@@ -178,7 +179,7 @@ TEST(FrameLegend, KindsOfSideAreNamedWhereThereAreOthersThanWalls) {
   EXPECT_EQ(words_in(style, word(1)), listed("sink"));
 }
 
-// "t = 1.5" to the left, "1 disk" to the right, which ends with the box.
+// "t = 1.5" on the left; "1 disk" on the right, ending with the box.
 TEST(FrameLegend, TimeAndCountAreThoseOfTheFrame) {
   FramePainter painter(square_style());
   std::vector<std::uint64_t> times, counts;
@@ -197,7 +198,7 @@ TEST(FrameLegend, TimeAndCountAreThoseOfTheFrame) {
     EXPECT_NE(times[k], times[k - 1]);
     EXPECT_NE(counts[k], counts[k - 1]);
   }
-  EXPECT_LT(places[1].width(), places[2].width() - 5) << "1 disk, 2 disks";
+  EXPECT_LT(places[1].width(), places[2].width() - 5) << "1 disk is shorter than 2 disks";
   EXPECT_GT(places[0].width(), places[2].width() - 5) << "0 disks";
   painter.paint({}, 1.5);
   const std::uint64_t rounded = shape_in(painter, time_place);

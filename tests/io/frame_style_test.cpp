@@ -1,4 +1,4 @@
-// The scale of a movie's colours covers what a run is going to have, and its list names all groups.
+// The scale of a movie's colours covers the values to be expected in a run, and its list names all groups.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -53,7 +53,7 @@ SizeLaw from_other(double density) {
 
 const Disks resting = one_disk(3.0, 5.0, 0.0, 1.0);
 
-// Towards the left, disks at 3 with radius 1 fall 2; towards the right, 6. Upwards and downwards 4.
+// Towards the left disks at 3 with radius 1 fall by 2, towards the right by 6, upwards and downwards by 4.
 TEST(SpeedScale, FallingAddsTheWayToTheWall) {
   Scene scene = square_scene();
   scene.physics.gravity = {0.5, 0.0};
@@ -63,10 +63,10 @@ TEST(SpeedScale, FallingAddsTheWayToTheWall) {
   scene.physics.gravity = {-0.5, -0.25};
   EXPECT_DOUBLE_EQ(speed_square(scene, resting), 2.0 * (0.5 * 6.0 + 0.25 * 4.0));
   EXPECT_DOUBLE_EQ(speed_square(scene, one_disk(3.0, 5.0, 2.0, 1.0)), 4.0 + 2.0 * (0.5 * 6.0 + 0.25 * 4.0))
-      << "on top of the speed that it has";
+      << "in addition to its own speed";
 }
 
-// Where collisions lose energy, they do not share out what there is.
+// If collisions lose energy, they do not pass all of it to light disks.
 TEST(SpeedScale, LightDisksDoNotGetFasterWhereEnergyIsLost) {
   Scene scene = square_scene();
   Disks mixed = one_disk(2.0, 5.0, 1.0, 1.0);
@@ -85,10 +85,10 @@ TEST(SpeedScale, SourcesBringTheirOwnSpeeds) {
   EXPECT_DOUBLE_EQ(speed_square(scene, {}), 18.0) << "both components";
   source.velocities.kind = VelocityLaw::Kind::maxwell;
   source.velocities.temperature = 4.0;
-  EXPECT_DOUBLE_EQ(speed_square(scene, {}), 2.5 * 2.0 * 4.0 / 2.0) << "the lightest are the fastest";
+  EXPECT_DOUBLE_EQ(speed_square(scene, {}), 2.5 * 2.0 * 4.0 / 2.0) << "the lightest disks are the fastest";
 }
 
-// Disks of radius 1 that enter touching a side fall from it: none of the way to that side.
+// Disks of radius 1 that enter touching a side fall away from it: they cannot fall to that side.
 TEST(SpeedScale, FromASideDisksFallFromThere) {
   Scene scene = square_scene();
   scene.sources.push_back(point_source(1.0, 1.0));
@@ -106,7 +106,7 @@ TEST(SpeedScale, FromASideDisksFallFromThere) {
   EXPECT_DOUBLE_EQ(from(Side::top), 8.0);
 }
 
-// A thermostat makes the lightest disk that is there, or will be, the fastest.
+// At a given temperature the fastest disk is the lightest that exists or will come.
 TEST(SpeedScale, ATemperatureIsThatOfTheLightestDisk) {
   Scene scene = square_scene();
   scene.physics.thermostat = {Thermostat::Kind::langevin, 2.0, 1.0, 0.1};
@@ -124,7 +124,7 @@ TEST(SpeedScale, InnerWallsThatMovePushDisks) {
   wall.motion.pace.speed = 1.0;
   wall.motion.along = {3.0, 4.0};
   scene.box.inner_walls_move = true;
-  EXPECT_DOUBLE_EQ(speed_square(scene, resting), 100.0) << "twice as fast as the wall";
+  EXPECT_DOUBLE_EQ(speed_square(scene, resting), 100.0) << "a disk leaves twice as fast as the wall";
 }
 
 TEST(SpeedScale, BrownianStepsComeOnTopOfVelocitiesThatAreKept) {
@@ -136,7 +136,7 @@ TEST(SpeedScale, BrownianStepsComeOnTopOfVelocitiesThatAreKept) {
   EXPECT_DOUBLE_EQ(speed_square(scene, one_disk(3.0, 5.0, 2.0, 1.0)), 4.0 + 40.0);
 }
 
-// Radii, masses and ids of disks that sources bring, of whatever law.
+// The scale covers radii, masses and ids of disks that sources will emit, for any law.
 TEST(ColourScale, CoversWhatSourcesBring) {
   Scene scene = square_scene();
   scene.sources.push_back(point_source(0.5, 3.0));
@@ -144,7 +144,7 @@ TEST(ColourScale, CoversWhatSourcesBring) {
   EXPECT_TRUE(seen.any);
   EXPECT_EQ(seen.radius.low, 0.5);
   EXPECT_EQ(seen.radius.high, 0.5);
-  EXPECT_EQ(seen.last_id, 10U) << "one a time until 10";
+  EXPECT_EQ(seen.last_id, 10U) << "one per unit of time, until 10";
   scene.sources.push_back(point_source(2.0, 1.0));
   scene.sources.back().limit = 3;
   seen = foreseen_values(scene, resting);
@@ -186,7 +186,8 @@ TEST(FrameStyle, ListsAllGroupsAndWhatStandsInTheBox) {
   EXPECT_EQ(predicted(scene, {}).wall_motions.size(), 1U);
 }
 
-// So many decimals that times of frames differ, four at most; scientific where that is too few, or t too long.
+// As many decimals as are needed to distinguish frames, four at most; scientific notation if that is not enough, or if
+// t is too long.
 TEST(FrameStyle, DecimalsTellFramesApart) {
   Scene scene = square_scene();
   const auto decimals = [&](double every) {
@@ -199,7 +200,7 @@ TEST(FrameStyle, DecimalsTellFramesApart) {
   EXPECT_EQ(decimals(1.0 / 3.0), 4);
   EXPECT_EQ(decimals(1e-4), 4);
   EXPECT_EQ(decimals(9e-5), -1);
-  EXPECT_EQ(decimals(0.0), 0) << "every step: those of the end";
+  EXPECT_EQ(decimals(0.0), 0) << "with frames at every step, as many as the end needs";
   scene.run.t_end = 0.5;
   EXPECT_EQ(decimals(0.0), 1);
   scene.run.t_end = 1e7;

@@ -1,4 +1,4 @@
-// A picture has everything where it is at the frame's time: disks and their images, sides, inner walls.
+// In a picture everything is where it is at the frame's time: disks and their images, sides, inner walls.
 #include "io/movie/frame.hpp"
 
 #include <gmock/gmock.h>
@@ -26,7 +26,7 @@ constexpr std::uint32_t white = 0xffffffU;
 const std::uint32_t grey_wall = packed({51, 51, 51}), orange_sink = packed({213, 94, 0}),
                     grey_obstacle = packed(obstacle_colour);
 
-// Of a box of 10 by 10, 800 pixels wide: what is drawn at a place, y upwards.
+// The colour at a place in a box of 10 by 10 that is 800 pixels wide, with y upwards.
 std::uint32_t colour_at(const FramePainter& painter, double x, double y) {
   return pixel(painter, 28 + static_cast<int>(80.0 * x), 878 - 1 - static_cast<int>(80.0 * y));
 }
@@ -40,11 +40,11 @@ Domain periodic_box() {
 TEST(FrameLayout, TheBoxIsInTheMiddleOfWhatTheMarginsLeave) {
   Domain narrow{1.0, 100.0}, low{100.0, 1.0};
   const FrameLayout tall = frame_layout({"", narrow, 1.0, 1});
-  EXPECT_EQ(tall.left, 28.0 + 206.0);  // 8 pixels in the middle of 420
+  EXPECT_EQ(tall.left, 28.0 + 206.0);  // 8 pixels, in the middle of 420
   EXPECT_EQ(tall.bottom, 78.0 + 800.0);
   const FrameLayout flat = frame_layout({"", low, 1.0, 1});
   EXPECT_EQ(flat.left, 28.0);
-  EXPECT_EQ(flat.bottom, 78.0 + 155.0);  // 9.6 in the middle of 300
+  EXPECT_EQ(flat.bottom, 78.0 + 155.0);  // 9.6 pixels, in the middle of 300
   FrameStyle given{"", square_box(10.0), 1.0, 1};
   given.look.width = 1280;
   given.look.height = 720;
@@ -55,7 +55,7 @@ TEST(FrameLayout, TheBoxIsInTheMiddleOfWhatTheMarginsLeave) {
   EXPECT_NEAR(wide.bottom, wide.height - bottom_margin * wide.unit, 0.6);
 }
 
-// Of a channel of hard rods nothing was seen but its walls.
+// Pictures of a channel of hard rods once showed nothing but its walls.
 TEST(Frame, ABoxThinnerThanAPixelShowsItsDisks) {
   for (const SideKind side : {SideKind::wall, SideKind::periodic}) {
     Domain flat{4000.0, 1.0}, tall{1.0, 4000.0};
@@ -74,7 +74,7 @@ TEST(Frame, ABoxThinnerThanAPixelShowsItsDisks) {
   }
 }
 
-// Disks reach to the sides and no further; the lines of the sides are outside.
+// Disks are drawn up to the sides and no further; the lines of the sides are outside.
 TEST(Frame, WhatIsInTheBoxReachesToItsSides) {
   FramePainter painter({"", square_box(10.0), 1.0, 1});
   painter.paint(one_disk(5.0, 5.0, 1.0, 20.0), 0.0);
@@ -132,7 +132,7 @@ TEST(Frame, EverySideAndCornerHasItsImages) {
   }
 }
 
-// Images above are displaced by 2 at time 1.
+// At time 1 the upper images are displaced by 2.
 TEST(Frame, ImagesAcrossTheTopOfAShearedBoxAreDisplaced) {
   Domain box = periodic_box();
   box.shear = {0.2, 2.0, 0.0};
@@ -144,7 +144,7 @@ TEST(Frame, ImagesAcrossTheTopOfAShearedBoxAreDisplaced) {
   painter.paint(one_disk(5.0, 9.8, 1.0, 0.5), 1.0);
   EXPECT_NE(colour_at(painter, 3.0, 0.05), white);
   EXPECT_EQ(colour_at(painter, 7.0, 0.05), white);
-  painter.paint(one_disk(7.9, 0.2, 1.0, 0.5), 1.0);  // its image is across the right side, too
+  painter.paint(one_disk(7.9, 0.2, 1.0, 0.5), 1.0);  // it has an image across the right side, too
   EXPECT_NE(colour_at(painter, 9.8, 9.95), white);
   EXPECT_NE(colour_at(painter, 0.1, 9.95), white);
   painter.paint(one_disk(8.1, 0.2, 1.0, 0.5), 1.0);
@@ -159,7 +159,7 @@ TEST(Frame, AFewDisksAreSeenHoweverSmall) {
   Disks many;
   for (DiskId id = 0; id <= 5000; ++id) append(many, {5e4, 5e4, 1.0, 0.0, 1e-3, 1.0, id});
   painter.paint(many, 0.0);
-  EXPECT_EQ(pixel(painter, 28 + 400, 78 + 400), white) << "many are seen by the area that they cover";
+  EXPECT_EQ(pixel(painter, 28 + 400, 78 + 400), white) << "many small disks show by the area that they cover";
 }
 
 TEST(Frame, AGroupOfTheTrajectoryGoesBeforeThatOfTheScene) {
@@ -233,7 +233,7 @@ TEST(Frame, InnerWallsThatMoveAreWhereTheyAreThenAndSeenAcrossPeriodicSides) {
   painter.paint({}, 1.0);
   EXPECT_EQ(colour_at(painter, 7.25, 5.5), grey_wall);
   EXPECT_EQ(colour_at(painter, 5.0, 5.0), white);
-  painter.paint({}, 2.0);  // from 8.5 to 10.5
+  painter.paint({}, 2.0);  // it reaches from 8.5 to 10.5
   EXPECT_EQ(colour_at(painter, 9.0, 6.0), grey_wall);
   EXPECT_EQ(colour_at(painter, 0.25, 6.0), grey_wall);
   EXPECT_EQ(colour_at(painter, 1.0, 6.0), white);
@@ -248,10 +248,10 @@ TEST(Frame, InnerWallsThatMoveAreWhereTheyAreThenAndSeenAcrossPeriodicSides) {
     EXPECT_EQ(colour_at(upwards, 5.0, 1.0), white) << time;
   }
   style.wall_motions[0].along = {1.0, 1.0};
-  style.obstacles = {segment({6.0, 5.0}, {4.0, 5.0})};  // from its end to its beginning
+  style.obstacles = {segment({6.0, 5.0}, {4.0, 5.0})};  // the same wall with its ends exchanged
   style.obstacles[0].moves = true;
   FramePainter backwards(style);
-  backwards.paint({}, 4.75);  // from 10.75, which is 0.75, to 8.75
+  backwards.paint({}, 4.75);  // it reaches from 10.75, which is 0.75, to 8.75
   EXPECT_EQ(colour_at(backwards, 0.5, 9.75), grey_wall);
   EXPECT_EQ(colour_at(backwards, 9.5, 9.75), grey_wall);
   EXPECT_EQ(colour_at(backwards, 5.0, 9.75), white);
@@ -264,7 +264,7 @@ TEST(Frame, InnerWallsThatMoveAreWhereTheyAreThenAndSeenAcrossPeriodicSides) {
   EXPECT_EQ(colour_at(downwards, 9.75, 5.0), white);
 }
 
-// The same as curves: what lies across a side is cut off, and a large disk is a rim with the rest upon it.
+// The same as vector graphics: parts beyond a side are cut off, and a large disk is a rim with the inner part on it.
 TEST(Frame, ASvgShowsTheSame) {
   const test::TestFolder folder("frame_svg");
   const std::string path = (folder.path() / "frame.svg").string();
@@ -282,18 +282,18 @@ TEST(Frame, ASvgShowsTheSame) {
     return count;
   };
   const std::string none = svg_of({}, 0.0), one = svg_of(one_disk(5.0, 5.0, 1.0, 1.0), 0.0);
-  // Sky blue, group 5, and 0.35 of it.
+  // Sky blue for group 5, and 0.35 of it for the rim.
   EXPECT_THAT(one, ::testing::ContainsRegex("rgb\\(33.725[0-9]*%, ?70.588[0-9]*%, ?91.372[0-9]*%\\)"));
   EXPECT_THAT(one, ::testing::ContainsRegex("rgb\\(11.803[0-9]*%, ?24.705[0-9]*%, ?31.980[0-9]*%\\)"));
-  // A circle of 80 pixels for the rim and one of 79 upon it.
+  // A circle of 80 pixels for the rim, and one of 79 on it.
   EXPECT_EQ(parts(one, "M 508 478 "), 1U);
   EXPECT_EQ(parts(one, "M 507 478 "), 1U);
   EXPECT_EQ(parts(one, "stroke-width"), 5U) << "four sides and a wall";
   EXPECT_EQ(parts(none, "stroke-width"), 5U);
   EXPECT_EQ(parts(one, "clip"), 0U);
   EXPECT_GT(parts(svg_of(one_disk(5.0, 10.0, 1.0, 1.0), 0.0), "clip"), 0U) << "half of it is outside";
-  EXPECT_NE(none, svg_of({}, 0.1)) << "the time";
-  EXPECT_GT(parts(none, "<use"), 8U) << "letters of the time and the count";
+  EXPECT_NE(none, svg_of({}, 0.1)) << "the time differs";
+  EXPECT_GT(parts(none, "<use"), 8U) << "the letters of the time and the count";
 }
 
 TEST(Frame, ASvgThatCannotBeWrittenIsAnError) {

@@ -1,4 +1,4 @@
-// trajectory.h5 as a reader finds it: of a run that goes on or was killed, and with parts that do not go together.
+// trajectory.h5 as a reader finds it: of a run that is going on or was killed, and with parts that do not match.
 #include "io/trajectory/h5md_reader.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ using testing::HasSubstr;
 
 constexpr Count disks_of_block = 2;
 
-// Two blocks of two disks, rough, and a source, so that places may be added.
+// Two groups of two rough disks each, and a source, so that disks may be added.
 Scene rough_scene() {
   Scene scene = test::scene_of(Method::pairwise, 100.0, 50.0, 0.5, 50.0);
   scene.groups.resize(2);
@@ -49,7 +49,7 @@ class H5mdFile : public ::testing::Test {
     for (Count k = 0; k < frames; ++k) writer.write(disks_at(k, count), static_cast<double>(k), 7 * k, {});
     writer.close();
   }
-  // Opens the file and shows change() a dataset.
+  // Opens the file and calls change() with one of its datasets.
   void change_at(const std::string& name, const std::function<void(hid_t file, hid_t set)>& change) const {
     const hid_t file = H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
     const hid_t set = H5Dopen2(file, name.c_str(), H5P_DEFAULT);
@@ -64,7 +64,7 @@ class H5mdFile : public ::testing::Test {
   void resize(const std::string& name, const std::vector<hsize_t>& size) const {
     change(name, [&](hid_t, hid_t set) { ASSERT_GE(H5Dset_extent(set, size.data()), 0); });
   }
-  // One number of it.
+  // Writes one number of a dataset.
   void put(const std::string& name, const std::vector<hsize_t>& at, double value) const {
     change(name, [&](hid_t, hid_t set) {
       const hid_t space = H5Dget_space(set);
@@ -75,7 +75,7 @@ class H5mdFile : public ::testing::Test {
       H5Sclose(space);
     });
   }
-  // Puts a dataset of zeros of another shape in its place.
+  // Replaces a dataset by one of zeros with another shape.
   void replace(const std::string& name, const std::vector<hsize_t>& size) const {
     change(name, [&](hid_t file, hid_t) {
       const std::string whole = "/particles/disks/" + name;
@@ -87,7 +87,7 @@ class H5mdFile : public ::testing::Test {
       H5Sclose(space);
     });
   }
-  // The message of the error that reading it to its end gives.
+  // The error when the file is read to its end.
   std::string error() const {
     try {
       H5mdReader reader(path_);
@@ -118,13 +118,13 @@ TEST_F(H5mdFile, GivesGroupsAndSpins) {
     H5mdReader reader(path_);
     TrajectoryFrame frame;
     ASSERT_TRUE(reader.read(frame) && reader.read(frame));
-    EXPECT_THAT(frame.group, ElementsAre(0U, 0U, 1U, 1U, 2U)) << "the last one came from a source";
+    EXPECT_THAT(frame.group, ElementsAre(0U, 0U, 1U, 1U, 2U)) << "the last disk came from a source";
     EXPECT_THAT(frame.disks.spin, ElementsAre(1.0, 1.25, 1.5, 1.75, 2.0));
     EXPECT_EQ(reader.frames(), 2U);
   }
 }
 
-// A writer that was killed while disks came has room for them in some datasets and not in others.
+// A writer killed while disks were added may have enlarged some datasets and not others.
 TEST_F(H5mdFile, PlacesThatNotAllHaveYetAreNone) {
   for (const char* const name : {"velocity/value", "position/value", "angular_velocity/value"}) {
     write(rough_scene(), 2);
@@ -205,7 +205,8 @@ TEST_F(H5mdFile, ValuesThatNoDiskHasAreNamed) {
   }
 }
 
-// The mark "being written" is left where a kill comes between two writes: readers and a run that goes on look past it.
+// A kill between two writes leaves HDF5's mark "being written" in the file: readers, and a run that goes on, must
+// ignore it.
 TEST_F(H5mdFile, TheMarkOfAWriterThatIsGoneIsNoHindrance) {
   write(rough_scene(), 3);
   const pid_t child = fork();
@@ -255,8 +256,8 @@ TEST_F(H5mdFile, AGrowingFileIsReadOn) {
   }
   writer.write(disks_at(3, 5), 3.0, 3, {});
   writer.close();
-  EXPECT_FALSE(whole.read(frame)) << "it was asked for as it was";
-  // While it is being moved there is no more, and no error.
+  EXPECT_FALSE(whole.read(frame)) << "this reader reads the file as it was when opened";
+  // While the file is being moved the reader finds nothing more, and no error.
   const std::string elsewhere = (folder_.path() / "moved.h5").string();
   std::filesystem::rename(path_, elsewhere);
   EXPECT_FALSE(growing.read(frame));
@@ -265,7 +266,7 @@ TEST_F(H5mdFile, AGrowingFileIsReadOn) {
   EXPECT_EQ(frame.time, 3.0);
 }
 
-// What a killed writer left of radii, masses and species is made whole by the run that goes on.
+// Radii, masses and species that a killed writer left incomplete are completed by the run that goes on.
 TEST_F(H5mdFile, WhatIsKnownForEverIsFilledUp) {
   for (const char* const name : {"radius", "mass", "species"}) {
     write(rough_scene(), 3);
@@ -282,7 +283,7 @@ TEST_F(H5mdFile, WhatIsKnownForEverIsFilledUp) {
   }
 }
 
-// Disks that a program has added before the file begins have their places, though no source of the scene emits any.
+// Disks added by a program before the file begins have their rows, even if no source of the scene emits disks.
 TEST_F(H5mdFile, DisksThatAProgramAddedHaveTheirPlaces) {
   Scene scene = rough_scene();
   scene.sources.clear();
@@ -296,7 +297,7 @@ TEST_F(H5mdFile, DisksThatAProgramAddedHaveTheirPlaces) {
   EXPECT_THAT(frame.disks.mass, ElementsAre(1.0, 2.0, 3.0, 4.0, 5.0, 6.0));
 }
 
-// Where none of the disks that a source emits is selected, the file has its places for good.
+// If no disk that a source emits is selected, the number of rows in the file is fixed.
 TEST_F(H5mdFile, PlacesAreAddedOnlyWhereDisksMayCome) {
   const auto most_places = [this](DiskId end) {
     Scene scene = rough_scene();
@@ -311,7 +312,7 @@ TEST_F(H5mdFile, PlacesAreAddedOnlyWhereDisksMayCome) {
     return most;
   };
   EXPECT_EQ(most_places(3), 3U);
-  EXPECT_EQ(most_places(4), 4U) << "all of the start";
+  EXPECT_EQ(most_places(4), 4U) << "all disks of the start";
   EXPECT_EQ(most_places(5), H5S_UNLIMITED);
 }
 
@@ -325,7 +326,7 @@ TEST_F(H5mdFile, OfAnotherShapeItIsNotGoneOnWith) {
   EXPECT_THROW(H5mdWriter(path_, other, 2), RunError);
 }
 
-// Steps of the time-stepping methods, numbers of frames of exact, as several may lie in one of its windows.
+// Steps are those of time-stepping methods; for exact they are numbers of frames, as several may lie in one window.
 TEST_F(H5mdFile, StepsAreThoseOfTheMethod) {
   for (const Method method : {Method::pairwise, Method::exact}) {
     Scene scene = rough_scene();
@@ -343,7 +344,7 @@ TEST_F(H5mdFile, StepsAreThoseOfTheMethod) {
   }
 }
 
-// Observables of rotation and of groups with names stand under their own names.
+// Observables of rotation and of named groups are stored under their own names.
 TEST_F(H5mdFile, ObservablesStandUnderTheirNames) {
   Scene scene = rough_scene();
   scene.groups[1].name = "second";

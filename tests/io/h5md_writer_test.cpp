@@ -1,4 +1,4 @@
-// trajectory.h5 by its writer alone: what is kept, files of killed writers, going on, damage.
+// The writer of trajectory.h5 alone: what is stored, files of killed writers, continuation, and damage.
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -30,7 +30,7 @@ Scene drifting_scene() {
   return scene;
 }
 
-// Frame k: disks k to 40 + k are left, each at a place that follows from its id and the frame.
+// In frame k the disks k to 40 + k are left, each at a position that follows from its id and the frame.
 Disks frame_disks(Count k) {
   Disks disks;
   for (Count id = k; id < 40 + k; ++id) {
@@ -45,7 +45,7 @@ void write_frames(H5mdWriter& writer, Count from, Count to) {
   for (Count k = from; k < to; ++k) writer.write(frame_disks(k), 0.5 * static_cast<double>(k), k, {});
 }
 
-// Reads all frames, expecting those of frame_disks, and returns their number.
+// Reads all frames, compares them with frame_disks, and returns their number.
 Count check_frames(const std::string& path) {
   H5mdReader reader(path);
   TrajectoryFrame frame;
@@ -61,8 +61,8 @@ Count check_frames(const std::string& path) {
   return k;
 }
 
-// Width and height, which sides are periodic, and what a disk has for ever, whether the file has two dimensions or
-// three.
+// Width and height, which sides are periodic, and constant properties of disks, for files of two and of three
+// dimensions.
 TEST(H5mdWriter, KeepsTheBoxAndTheSizes) {
   const test::TestFolder folder("h5md_box");
   const std::string path = (folder.path() / "trajectory.h5").string();
@@ -99,7 +99,7 @@ TEST(H5mdWriter, GoesOnAfterAnyFrame) {
       writer.close();
     }
     H5mdWriter(path, drifting_scene(), kept).close();
-    EXPECT_EQ(check_frames(path), kept) << "cut off, if nothing follows";
+    EXPECT_EQ(check_frames(path), kept) << "the file is cut off, even if no frame follows";
     H5mdWriter writer(path, drifting_scene(), kept);
     EXPECT_EQ(writer.frames(), kept);
     write_frames(writer, kept, 35);
@@ -107,7 +107,7 @@ TEST(H5mdWriter, GoesOnAfterAnyFrame) {
     EXPECT_EQ(check_frames(path), 35U) << kept;
   }
   EXPECT_THROW(H5mdWriter(path, drifting_scene(), 36), RunError);
-  // Of a run that ended before its first frame: masses and radii are still to come.
+  // In a run that ended before its first frame, masses and radii are still missing.
   H5mdWriter(path, drifting_scene()).close();
   H5mdWriter writer(path, drifting_scene(), Count{0});
   write_frames(writer, 0, 2);
@@ -118,11 +118,11 @@ TEST(H5mdWriter, GoesOnAfterAnyFrame) {
   EXPECT_THROW(H5mdWriter(path, other, 2), RunError);
 }
 
-// The same frames are the same bytes, whenever they were written and however long that took.
+// The same frames give the same bytes, whenever they were written and however long that took.
 TEST(LongH5mdWriter, EqualRunsLeaveEqualFiles) {
   const TestFolder folder("h5md_equal");
   const std::string path = (folder.path() / "trajectory.h5").string();
-  // Until the clock shows another second: longer than anything that a clock might decide, or leave in the file.
+  // Waits until the clock shows another second, the unit in which times would be stored in the file.
   const auto await_next_second = [] {
     const auto second = [] { return std::chrono::system_clock::now().time_since_epoch() / std::chrono::seconds(1); };
     for (const auto begun = second(); second() == begun;) usleep(1000);
@@ -147,8 +147,8 @@ TEST(LongH5mdWriter, EqualRunsLeaveEqualFiles) {
   }
 }
 
-// A child writes and flushes frame after frame, and is killed as soon as it has reported the k-th, while it writes one
-// of the next. A later kill finds the file that an earlier one left.
+// A child process writes and flushes frame after frame, and is killed as soon as it has reported frame k, while it
+// writes one of the next. A later kill finds the file that an earlier one left.
 TEST(LongH5mdWriter, AKilledWritersFileIsWholeAndGoesOn) {
   const TestFolder folder("h5md_killed");
   const std::string path = (folder.path() / "trajectory.h5").string();
@@ -209,7 +209,7 @@ TEST(H5mdWriter, WhatIsNoTrajectoryIsNamed) {
     const std::string part = whole.substr(0, static_cast<std::size_t>(share * static_cast<double>(whole.size())));
     EXPECT_THAT(message(folder.write("part.h5", part)), HasSubstr("part.h5: was cut short (truncated file")) << share;
   }
-  // Its first block has a checksum: no bit of it may be lost, nor the reader for ever at it.
+  // The first block has a checksum: any change of a bit must be noticed, and must not make the reader hang.
   for (std::size_t at = 0; at < 48; ++at) {
     std::string flipped = whole;
     flipped[at] = static_cast<char>(flipped[at] ^ 1);

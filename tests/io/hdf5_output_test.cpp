@@ -1,4 +1,4 @@
-// HDF5 files as Carom makes them: their first bytes, their texts, and how chunks are packed.
+// HDF5 files as Carom writes them: their first bytes, their texts, and the packing of chunks.
 #include "io/hdf5/hdf5_output.hpp"
 
 #include <gmock/gmock.h>
@@ -25,21 +25,21 @@ class Superblock : public ::testing::Test {
   const std::string path_ = (folder_.path() / "file.h5").string();
 };
 
-// Its length is 64 bits wide; the file is a hole.
+// The length is stored in 64 bits; the file is sparse.
 TEST_F(Superblock, TheEndOfAFileMayLieBeyondFourGigabytes) {
   constexpr std::uint64_t room = std::uint64_t{5} << 30;
   const std::uint64_t before = fs::file_size(path_);
   ASSERT_TRUE(make_readable(path_, room));
   EXPECT_EQ(fs::file_size(path_), before + room);
   const hid_t file = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  EXPECT_GE(file, 0) << "its checksum goes with it";
+  EXPECT_GE(file, 0) << "its checksum must match";
   H5Fclose(file);
   fs::resize_file(path_, before + 2 * room);
   EXPECT_TRUE(cut_at_end(path_));
   EXPECT_EQ(fs::file_size(path_), before + room);
 }
 
-// Damaged, or of another kind, it is not made to look whole.
+// A damaged file, or another kind of file, must not be changed to look whole.
 TEST_F(Superblock, OfAnotherFileNothingIsChanged) {
   const std::string whole = test::text_of(path_);
   for (const std::size_t at : {0U, 7U, 8U, 11U, 28U, 35U, 44U}) {
@@ -57,7 +57,7 @@ TEST_F(Superblock, OfAnotherFileNothingIsChanged) {
   EXPECT_FALSE(clear_writing_mark((folder_.path() / "none").string()));
 }
 
-// Titles and names are UTF-8, and readers are told so; a text may be empty.
+// Titles and names are UTF-8 and are marked as such; a text may be empty.
 TEST(Hdf5Text, IsUtf8) {
   const test::TestFolder folder("hdf5_text");
   const std::string path = (folder.path() / "file.h5").string();
@@ -71,7 +71,7 @@ TEST(Hdf5Text, IsUtf8) {
   EXPECT_EQ(H5Tget_size(type.get()), 5U);
 }
 
-// Noise is kept as it is, all else is packed: of coordinates it is the low bytes that are noise.
+// Noise is stored as it is, and all else is packed: in coordinates the low bytes are noise.
 TEST(ShuffledDeflate, PacksWhatIsNoNoise) {
   constexpr std::size_t count = 4096, bytes = count * sizeof(double);
   ShuffledDeflate deflate;
@@ -79,7 +79,7 @@ TEST(ShuffledDeflate, PacksWhatIsNoNoise) {
   EXPECT_LT(deflate.pack(values.data(), bytes, sizeof(double)).size(), bytes / 50);
   for (std::uint32_t i = 0; i < count; ++i) values[i] = uniforms(1, Stream::position, i, 0).a;
   const std::size_t noise = deflate.pack(values.data(), bytes, sizeof(double)).size();
-  EXPECT_LT(noise, bytes * 95 / 100) << "exponents are few";
+  EXPECT_LT(noise, bytes * 95 / 100) << "there are few different exponents";
   EXPECT_GT(noise, bytes * 80 / 100);
   for (std::uint32_t i = 0; i < count; ++i) values[i] = std::floor(100.0 * values[i]);
   EXPECT_LT(deflate.pack(values.data(), bytes, sizeof(double)).size(), bytes / 4);

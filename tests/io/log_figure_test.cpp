@@ -1,4 +1,4 @@
-// The page of panels with logarithmic axes: what gnuplot is told to draw, and from which numbers.
+// The page of panels with logarithmic axes: gnuplot's commands and data.
 #include "io/plots/log_figure.hpp"
 
 #include <gmock/gmock.h>
@@ -21,7 +21,7 @@ using ::testing::Not;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
 
-// A curve of two errors, of which one has a bar that reaches below zero, and of a bound; a curve of bounds alone.
+// A curve of two errors, one of which has a bar that reaches below zero, and of a bound; and a curve of bounds only.
 LogPanel panel_with_bounds() {
   LogPanel panel;
   panel.title = "first";
@@ -46,7 +46,7 @@ LogPanel panel_of(const std::string& title) {
   return panel;
 }
 
-// Two columns; two rows of the first section, one, which is full, of the second.
+// Two columns; two rows of the first section, and one row, which is full, of the second.
 LogFigure figure() {
   LogFigure f;
   f.title = "page";
@@ -57,7 +57,7 @@ LogFigure figure() {
   return f;
 }
 
-// Draws the figure; the commands of the SVG alone, as the PNG has them once more.
+// Draws the figure. The commands are those of the SVG only, since the PNG repeats them.
 class LogFigureScript : public ::testing::Test {
  protected:
   LogFigureScript() {
@@ -88,7 +88,7 @@ TEST_F(LogFigureScript, ErrorsAndBoundsAreBlocksOfTheirOwn) {
   ASSERT_THAT(blocks, SizeIs(12));
   EXPECT_THAT(blocks[0], ElementsAre(ElementsAre(1.0, 10.0, 8.0, 12.0), ElementsAre(10.0, 1.0, 1e-9, 6.0)));
   EXPECT_THAT(blocks[1], ElementsAre(ElementsAre(100.0, 0.25, 0.25, 0.25)));
-  ASSERT_THAT(blocks[2], ElementsAre(SizeIs(4))) << "a block that has nothing to draw counts all the same";
+  ASSERT_THAT(blocks[2], ElementsAre(SizeIs(4))) << "a block with nothing to draw must still exist";
   EXPECT_TRUE(std::isnan(blocks[2][0][0]));
   EXPECT_THAT(blocks[3], ElementsAre(ElementsAre(20.0, 3.0, 3.0, 3.0)));
   EXPECT_THAT(blocks[8], ElementsAre(ElementsAre(2.0, 3.0, 2.0, 4.0)));
@@ -111,7 +111,7 @@ TEST_F(LogFigureScript, PanelsStandInRowsBelowTheirHeadings) {
   const std::vector<std::string> left = commands("set lmargin at screen "), top = commands("set tmargin at screen "),
                                  right = commands("set rmargin at screen "),
                                  bottom = commands("set bmargin at screen ");
-  ASSERT_THAT(left, SizeIs(6)) << "the page as a whole comes first";
+  ASSERT_THAT(left, SizeIs(6)) << "the first one is for the whole page";
   const double columns[] = {0.0, 262.0, 0.0, 0.0, 262.0};
   constexpr double lower = 74.0 + 2.0 * 270.0 + 34.0;
   const double rows[] = {74.0, 74.0, 74.0 + 270.0, lower, lower};
@@ -133,7 +133,7 @@ TEST_F(LogFigureScript, AxesGoByTheirPanel) {
   EXPECT_THAT(commands("set xrange "), ElementsAre("[1:2]", "[1:1000]", small, small, small, small));
   EXPECT_THAT(commands("set yrange "), ElementsAre("[1:2]", "[1e-08:100]", small, small, small, small));
   EXPECT_THAT(commands("set xtics ")[0], "('10^{3}' 1e3, '10^{2}' 1e2, '10^{1}' 1e1, '10^{0}' 1e0)");
-  // Ten decades: every third one has its number; five and a half: every second.
+  // With ten decades every third has its number; with five and a half every second.
   EXPECT_THAT(commands("set ytics ")[0],
               "('10^{2}' 1e2, '' 1e1 1, '' 1e0 1, '10^{-1}' 1e-1, '' 1e-2 1, '' 1e-3 1, '10^{-4}' 1e-4, '' 1e-5 1, "
               "'' 1e-6 1, '10^{-7}' 1e-7, '' 1e-8 1)");
@@ -142,7 +142,7 @@ TEST_F(LogFigureScript, AxesGoByTheirPanel) {
   EXPECT_THAT(commands("set ylabel '")[0], StartsWith("error'"));
 }
 
-// Of a panel's curves one below the other at the right, the remark below them all.
+// The names of a panel's curves are one below the other at the right, with the remark below them.
 TEST_F(LogFigureScript, NamesStandAboveThePanel) {
   const auto height = [&](const std::string& words) {
     const std::vector<std::string> found = commands("set label '" + words + "' at screen ");

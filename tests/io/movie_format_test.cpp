@@ -1,4 +1,4 @@
-// Formats of movies: which file is whole, by files made byte for byte, and what ffmpeg is asked for.
+// Formats of movies: which files are whole, for files made byte by byte, and the arguments for ffmpeg.
 #include "io/movie/movie_format.hpp"
 
 #include <gmock/gmock.h>
@@ -25,7 +25,7 @@ class MovieFiles : public ::testing::Test {
 
 const std::string ftyp = "\0\0\0\x10"s + "ftypisomabcd", moov = "\0\0\0\x0b"s + "moovxyz",
                   mdat = "\0\0\0\x0c"s + "mdatdata";
-// With its size in 64 bits.
+// A block whose size is stored in 64 bits.
 const std::string large_mdat = "\0\0\0\x01mdat\0\0\0\0\0\0\0\x13"s + "abc";
 
 TEST_F(MovieFiles, AnMp4IsWholeWithAllOfItsBoxesAndItsIndex) {
@@ -33,7 +33,7 @@ TEST_F(MovieFiles, AnMp4IsWholeWithAllOfItsBoxesAndItsIndex) {
   EXPECT_TRUE(is_whole(ftyp + moov + mdat));
   EXPECT_TRUE(is_whole(ftyp + mdat + moov));
   EXPECT_TRUE(is_whole(ftyp + large_mdat + moov));
-  EXPECT_FALSE(is_whole(ftyp + mdat)) << "without an index";
+  EXPECT_FALSE(is_whole(ftyp + mdat)) << "a file without an index";
   EXPECT_FALSE(is_whole(""));
   EXPECT_FALSE(is_whole_movie(folder_.path() / "none", MovieFormat::mp4));
   const std::string all = ftyp + moov + large_mdat;
@@ -42,7 +42,7 @@ TEST_F(MovieFiles, AnMp4IsWholeWithAllOfItsBoxesAndItsIndex) {
     EXPECT_EQ(is_whole(all.substr(0, bytes)), ends_with_a_box) << bytes;
   }
   EXPECT_FALSE(is_whole(ftyp + moov + mdat + "x"));
-  EXPECT_FALSE(is_whole(ftyp + moov + "\0\0\0\0mdatdata"s)) << "a size that was to be written last";
+  EXPECT_FALSE(is_whole(ftyp + moov + "\0\0\0\0mdatdata"s)) << "a size that should have been written last";
   EXPECT_FALSE(is_whole(ftyp + moov + "\0\0\0\x07mdatdata"s));
   EXPECT_FALSE(is_whole(ftyp + moov + "\0\0\0\x01mdat\0\0\0\0\0\0\0\0abc"s));
 }
@@ -56,7 +56,7 @@ TEST_F(MovieFiles, AWebmIsWholeWhereItsSegmentEnds) {
   EXPECT_TRUE(is_whole(head + segment + "\x41\x04"s + std::string(260, 'x')));
   EXPECT_FALSE(is_whole(head + segment + "\x85" + "abcd"));
   EXPECT_FALSE(is_whole(head + segment + "\x85" + "abcdef"));
-  EXPECT_FALSE(is_whole(head + segment + "\x01\xff\xff\xff\xff\xff\xff\xff"s + "abcde")) << "of unknown size";
+  EXPECT_FALSE(is_whole(head + segment + "\x01\xff\xff\xff\xff\xff\xff\xff"s + "abcde")) << "a segment of unknown size";
   EXPECT_FALSE(is_whole(head + segment + "\0"s));
   EXPECT_FALSE(is_whole(head + head));
   EXPECT_FALSE(is_whole(head));
@@ -91,7 +91,7 @@ TEST(MovieFormats, FfmpegIsToldTheSizeAndThePace) {
   EXPECT_EQ(words.back(), "part.mp4");
   EXPECT_EQ(after("-video_size"), "640x480");
   EXPECT_EQ(after("-framerate"), "12.5");
-  EXPECT_EQ(after("-bf"), "0") << "parts are joined frame by frame";
+  EXPECT_EQ(after("-bf"), "0") << "without B-frames, parts can be joined frame by frame";
   EXPECT_EQ(after("-movflags"), "+faststart");
 }
 

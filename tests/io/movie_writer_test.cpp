@@ -1,4 +1,4 @@
-// Movies by a program in the place of ffmpeg, which fails as ffmpeg does, or says that it did not.
+// Movies made with a program in place of ffmpeg, which fails as ffmpeg may, or reports success wrongly.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ using ::testing::ElementsAre;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
-// A whole MP4 file without frames.
+// Writes a whole MP4 file without frames.
 constexpr const char* whole = R"(printf '\000\000\000\010ftyp\000\000\000\010moov' >"$file")";
 constexpr const char* cut_short = R"(printf '\000\000\000\010ftyp' >"$file")";
 
@@ -35,21 +35,21 @@ class StandInFfmpeg : public ::testing::Test {
   ~StandInFfmpeg() override { setenv("PATH", path_.c_str(), 1); }
 
   std::string results() const { return folder_.path() / "results"; }
-  // What it does with the frames of a part, and with the parts; $file is what it makes.
+  // Defines what the program does with the frames of a part, and what with the parts; $file is its output.
   void does(const std::string& with_frames, const std::string& with_parts) const {
     const std::string program =
         folder_.write("ffmpeg", "#!/bin/sh\nfor file; do :; done\ncase \"$*\" in\n*concat*) " + with_parts +
                                     " ;;\n*) cat >/dev/null; " + with_frames + " ;;\nesac\n");
     fs::permissions(program, fs::perms::owner_all);
   }
-  // Two frames, with a mark between them if so wished.
+  // Writes two frames, with a mark between them if `marked`.
   static void make(MovieWriter& movie, bool marked) {
     movie.add(one_disk(1.0, 1.0, 1.0, 0.5), 0.0);
     if (marked) movie.mark();
     movie.add(one_disk(2.0, 1.0, 1.0, 0.5), 1.0);
     movie.finish();
   }
-  // How it fails; empty if it does not.
+  // The error; empty if there is none.
   std::string error(bool marked) const {
     MovieWriter movie(results(), {"", square_box(4.0), 1.0, 1});
     try {
@@ -79,7 +79,7 @@ TEST_F(StandInFfmpeg, AFileThatWasCutShortIsAnErrorWhateverItSays) {
   EXPECT_THAT(error(false), EndsWith(incomplete));
   EXPECT_THAT(error(true), EndsWith(incomplete));
   does(whole, cut_short);
-  EXPECT_EQ(error(false), "") << "nothing is joined";
+  EXPECT_EQ(error(false), "") << "a single part is not joined";
   EXPECT_THAT(error(true), EndsWith(incomplete));
 }
 
@@ -91,7 +91,7 @@ TEST_F(StandInFfmpeg, WhatItSaysLastIsInTheError) {
   EXPECT_THAT(error(true), EndsWith("movie.mp4: out of ideas"));
 }
 
-// The scale of the colours and the digits of the time are those that the movie began with.
+// The scale of the colours and the digits of the time are those from the start of the movie.
 TEST_F(StandInFfmpeg, AMarkSaysWithWhatTheMovieBegan) {
   does(whole, whole);
   FrameStyle style{"", square_box(4.0), 3.0, 2};
@@ -105,12 +105,12 @@ TEST_F(StandInFfmpeg, AMarkSaysWithWhatTheMovieBegan) {
   EXPECT_EQ(mark.high, 3.0);
   EXPECT_EQ(mark.time_decimals, 2);
   EXPECT_EQ(mark.parts.size(), 1U);
-  EXPECT_EQ(movie.mark().parts, mark.parts) << "no frame has come since";
+  EXPECT_EQ(movie.mark().parts, mark.parts) << "no frame has come since the mark";
   movie.add(one_disk(2.0, 1.0, 1.0, 0.5), 1.0);
   EXPECT_THAT(movie.finish().parts, ElementsAre("movie.mp4"));
 }
 
-// Parts that a killed run began after its checkpoint are gone; those that it names stay, and are joined.
+// Parts that a killed run began after its checkpoint are removed; those named in the checkpoint stay and are joined.
 TEST_F(StandInFfmpeg, AMovieGoesOnFromItsMark) {
   does(whole, "cat movie_parts.txt >list; " + std::string(whole));
   MovieMark mark;

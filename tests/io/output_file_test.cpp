@@ -1,4 +1,4 @@
-// Files of results: what is written is there when they are closed, or the run is told.
+// Files of results: after closing, what was written is in the file, or there is an error.
 #include "io/files/output_file.hpp"
 
 #include <gtest/gtest.h>
@@ -30,20 +30,20 @@ TEST(OutputFile, IsGoneOnWithToTheByte) {
   } catch (const InputError& e) {
     EXPECT_STREQ(e.what(), (file + ": has 4 bytes; expected 5 or more, as when the checkpoint was made").c_str());
   }
-  EXPECT_EQ(test::text_of(file), "123x") << "nothing is touched";
+  EXPECT_EQ(test::text_of(file), "123x") << "nothing may be changed";
   for (const std::uint64_t bytes : {0U, 5U}) EXPECT_THROW(OutputFile(base / "none.csv", bytes), InputError) << bytes;
   EXPECT_FALSE(fs::exists(base / "none.csv"));
-  EXPECT_NO_THROW(check_at_least(base, 0)) << "a folder, as that of a movie's frames";
+  EXPECT_NO_THROW(check_at_least(base, 0)) << "a folder, such as that of a movie's frames";
 }
 
-// What fits into the buffer is written when the file is closed.
+// Data that fit into the buffer are written when the file is closed.
 TEST(OutputFile, AFullDiskIsSeenWhenItIsClosed) {
   EXPECT_THROW(write_file("/dev/full", "a"), RunError);
   OutputFile file("/dev/full");
   file.write("a");
   EXPECT_THROW(file.flush(), RunError);
   OutputFile large("/dev/full");
-  EXPECT_THROW(large.write(std::string(1'000'000, 'a')), RunError) << "more than the buffer takes";
+  EXPECT_THROW(large.write(std::string(1'000'000, 'a')), RunError) << "more than the buffer holds";
 }
 
 }  // namespace

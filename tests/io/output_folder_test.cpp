@@ -62,7 +62,7 @@ TEST_F(OutputFolderTest, AFailedRunLeavesNothing) {
     fs::create_directories(base_ / "mine");
     OutputFolder out(base_ / "mine/", base_ / "input.toml", false);
   }
-  EXPECT_TRUE(fs::exists(base_ / "mine")) << "a folder that was there stays";
+  EXPECT_TRUE(fs::exists(base_ / "mine")) << "a folder that existed before stays";
   EXPECT_TRUE(fs::is_empty(base_ / "mine"));
 }
 
@@ -78,10 +78,10 @@ TEST_F(OutputFolderTest, ResultsAreReplacedByForceOnly) {
     OutputFolder failing(folder, base_ / "input.toml", true);
     write_file(failing.path("summary.json"), "half");
   }
-  EXPECT_EQ(text(folder / "summary.json"), "first") << "a failed run keeps the results before it";
+  EXPECT_EQ(text(folder / "summary.json"), "first") << "after a failed run the earlier results are kept";
   run(folder, "second", true);
   EXPECT_EQ(text(folder / "summary.json"), "second");
-  EXPECT_FALSE(fs::exists(folder / "series.csv")) << "no file of the earlier run is mixed in";
+  EXPECT_FALSE(fs::exists(folder / "series.csv")) << "no file of the earlier run may remain";
   EXPECT_EQ(text(folder / "notes.txt"), "mine");
   fs::create_directories(folder / unfinished_name);
   write_file(folder / unfinished_name / "trajectory.xyz", "of one that was stopped");
@@ -89,7 +89,7 @@ TEST_F(OutputFolderTest, ResultsAreReplacedByForceOnly) {
   EXPECT_FALSE(fs::exists(folder / "trajectory.xyz"));
 }
 
-// Found out at the end of a run it would have cost the old results, and the new ones.
+// Noticed only at the end of a run, this would cost both the old and the new results.
 TEST_F(OutputFolderTest, AFolderWhereAFileWouldGoIsForeseen) {
   const fs::path folder = base_ / "out";
   run(folder, "first", false);
@@ -153,7 +153,7 @@ TEST_F(OutputFolderTest, WhereNoFolderCanBe) {
   }
 }
 
-// What cannot be put in its place leaves nothing beside it.
+// If a file cannot be replaced no temporary file is left.
 TEST_F(OutputFolderTest, AFileReplacesAFileOnly) {
   const std::string file = base_ / "table.csv";
   write_file(file, "old");
@@ -176,7 +176,7 @@ TEST_F(OutputFolderTest, AStoppedRunIsGoneOnWithWhereItCanBe) {
   EXPECT_THAT(refusal(base_ / "out", false), HasSubstr("); go on with carom resume "));
 }
 
-// Of a stopped run, for a process of another user where the test itself may write anywhere.
+// Resuming a stopped run. If the test may write anywhere, a process of another user is used.
 TEST_F(OutputFolderTest, WhereNoFileCanBeWrittenNoRunGoesOn) {
   constexpr auto open = fs::perms::all, closed = fs::perms::all & ~fs::perms(0222);
   const fs::path out = base_ / "out", unfinished = out / unfinished_name;
@@ -200,7 +200,7 @@ TEST_F(OutputFolderTest, WhereNoFileCanBeWrittenNoRunGoesOn) {
     fs::permissions(place, closed);
     EXPECT_EXIT(go_on(), ::testing::ExitedWithCode(2),
                 "out: cannot be written to: Permission denied; go on in another folder with -o");
-    EXPECT_EQ(std::distance(fs::directory_iterator(unfinished), {}), 1) << "the lock alone";
+    EXPECT_EQ(std::distance(fs::directory_iterator(unfinished), {}), 1) << "only the lock";
     fs::permissions(place, open);
   }
   fs::permissions(base_, open);
@@ -219,8 +219,8 @@ TEST_F(OutputFolderTest, TheRootAndTheCurrentFolderAreKnown) {
   fs::current_path(here);
 }
 
-// A run that goes on takes back what it goes on with, and all results of a run that was finished; what is in the
-// unfinished part already is newer.
+// A run that goes on gets back the files that it continues, and if it was finished all its results; files that are
+// already in the unfinished part are newer.
 TEST_F(OutputFolderTest, WhatARunGoesOnWithIsTakenBack) {
   const fs::path folder = base_ / "out";
   run(folder, "first", false);
@@ -233,19 +233,20 @@ TEST_F(OutputFolderTest, WhatARunGoesOnWithIsTakenBack) {
     EXPECT_EQ(text(folder / unfinished_name / "series.csv"), "new");
     EXPECT_EQ(text(folder / unfinished_name / "trajectory.xyz"), "old");
     EXPECT_TRUE(fs::exists(folder / "energy.svg") && fs::exists(folder / "summary.json"));
-    EXPECT_EQ(present_path(folder, "series.csv"), folder / unfinished_name / "series.csv") << "of both the newer";
+    EXPECT_EQ(present_path(folder, "series.csv"), folder / unfinished_name / "series.csv") << "the newer of both";
     EXPECT_EQ(present_path(folder, "energy.svg"), folder / "energy.svg");
-    EXPECT_EQ(present_path(folder, "none.csv"), folder / unfinished_name / "none.csv") << "of a run that goes on";
+    EXPECT_EQ(present_path(folder, "none.csv"), folder / unfinished_name / "none.csv")
+        << "a run that goes on writes there";
     going_on.take_back(true, {});
     for (const char* const name : {"energy.svg", "summary.json"}) {
       EXPECT_FALSE(fs::exists(folder / name)) << name;
       EXPECT_TRUE(fs::exists(folder / unfinished_name / name)) << name;
     }
   }
-  EXPECT_TRUE(fs::exists(folder / unfinished_name / "energy.svg")) << "of a run that goes on nothing is removed";
+  EXPECT_TRUE(fs::exists(folder / unfinished_name / "energy.svg")) << "no file of a run that goes on is removed";
 }
 
-// carom view and carom render put theirs into the folder of a run that goes on or has stopped.
+// carom view and carom render put their files into the folder of a run that is going on or has stopped.
 TEST_F(OutputFolderTest, PicturesThatOthersMadeOfTheRunStay) {
   const fs::path folder = base_ / "out";
   const auto make_pictures = [&](const std::string& of) {
@@ -264,8 +265,8 @@ TEST_F(OutputFolderTest, PicturesThatOthersMadeOfTheRunStay) {
   }
   EXPECT_EQ(text(folder / "view.html"), "a part");
   EXPECT_EQ(text(folder / "frames" / "frame_000001.png"), "a part");
-  EXPECT_EQ(text(folder / "movie.mp4"), "all of it") << "the run's own";
-  // Those of an earlier run go with it, also where the one that replaces it stops on the way.
+  EXPECT_EQ(text(folder / "movie.mp4"), "all of it") << "the run's own file";
+  // Those made for an earlier run are removed with it, even if the run that replaces it is stopped.
   OutputFolder(folder, base_ / "input.toml", true).keep_unfinished();
   EXPECT_EQ(text(folder / "view.html"), "a part");
   {

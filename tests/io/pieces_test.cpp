@@ -1,4 +1,4 @@
-// Files of disks that come in pieces, as those of several ranks do: byte for byte those of the same disks as a whole.
+// Files written from disks in pieces, as those of several ranks: byte for byte the files of the whole.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@
 namespace carom {
 namespace {
 
-// Disks of frame k: scattered in memory, some gone since the frame before.
+// The disks of frame k: in random order, some of them gone since the frame before.
 Disks frame_disks(const Scene& scene, std::uint32_t count, std::uint32_t k) {
   Disks disks;
   if (scene.physics.surfaces.are_rough()) disks.inertia = 0.5;
@@ -44,7 +44,7 @@ std::string bytes_of(const std::filesystem::path& path) {
   return all.str();
 }
 
-// All files of some frames, as they are in the folder then. ids: of a piece; 0: disks as a whole.
+// The contents of all files for some frames. ids: number of ids in a piece; 0: the disks as a whole.
 std::string files_of(const test::TestFolder& folder, const Scene& scene, std::uint32_t count, std::uint32_t frames,
                      DiskId ids) {
   const auto path = [&](const char* name) { return (folder.path() / name).string(); };
@@ -69,7 +69,7 @@ std::string files_of(const test::TestFolder& folder, const Scene& scene, std::ui
         follow_rounds(rounds, disks, scene.box);
         xyz.write(disks);
         h5md.write(disks, k, meter.row(disks, now));
-        // The largest overlap of pieces is what the ranks say, and no disk is large enough here to have one.
+        // The largest overlap of pieces is given by the ranks; the disks here are too small to overlap.
         if (ids > 0 && disks.max_overlap() != 0.125) ADD_FAILURE();
         series.write(disks, now);
       };
@@ -82,7 +82,7 @@ std::string files_of(const test::TestFolder& folder, const Scene& scene, std::ui
   }
   std::string files;
   for (const char* name : {"trajectory.h5", "trajectory.xdmf", "trajectory.xyz"}) files += bytes_of(path(name));
-  // But for the overlaps.
+  // All columns but the overlaps.
   std::istringstream lines(bytes_of(path("series.csv")));
   for (std::string line; std::getline(lines, line);) {
     std::istringstream cells(line);
@@ -123,7 +123,7 @@ std::string bits(double value) {
   return std::string(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-// What pictures and plots are made of: pixels, the ends of the colour scale, velocities. ids: as above.
+// The data of pictures and plots: pixels, the ends of the colour scale, velocities. ids: as above.
 std::string pictures_of(const Scene& scene, std::uint32_t frames, DiskId ids) {
   VelocityRecord velocities;
   std::string all;
@@ -170,7 +170,7 @@ TEST(Pieces, PicturesAreThoseOfTheWhole) {
   }
 }
 
-// What is measured of the frames, as its file. ids: as above.
+// The file of quantities measured in the frames. ids: as above.
 std::string samples_of(const test::TestFolder& folder, const Scene& scene, std::uint32_t frames, DiskId ids) {
   AnalysisRecord record = empty_record(scene);
   for (std::uint32_t k = 0; k < frames; ++k) {
@@ -208,7 +208,7 @@ TEST(LongPieces, SamplesAreThoseOfTheWhole) {
   }
 }
 
-// More disks than go into the file at once, and chunks that end where no piece does.
+// More disks than are written to the file at once, with chunks that end within pieces.
 TEST(LongPieces, ManyDisksGoChunkByChunk) {
   const test::TestFolder folder("pieces_of_many");
   for (const char* select : {"", "select = \"every 2nd\"\n", "select = [0.0, 0.0, 400.0, 250.0]\n"}) {

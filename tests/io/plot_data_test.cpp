@@ -1,4 +1,4 @@
-// What gnuplot is told to draw: each line's own numbers, on axes that hold them, with names where the lines end.
+// gnuplot's commands and data: each line's own numbers, axes that contain them, and names at the ends of lines.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ std::vector<std::pair<double, double>> ranges(const StandInGnuplot& gnuplot, con
   return all;
 }
 
-// Of one panel.
+// The vertical range for one panel.
 std::pair<double, double> heights_of(const Panel& panel, bool logarithmic = false) {
   const StandInGnuplot gnuplot;
   EXPECT_TRUE(draw_svg({"", "t", 1.0, {panel}, logarithmic}, gnuplot.picture()));
@@ -59,7 +59,7 @@ TEST(PlotData, EveryLineAndBandHasABlockOfItsOwn) {
   EXPECT_THAT(plots[1], ::testing::StartsWith("'data' index 5 using"));
   EXPECT_THAT(plots[1], HasSubstr(", 'data' index 6 with lines"));
   EXPECT_THAT(gnuplot.commands("set ylabel "), ElementsAre("'a'", "'b'"));
-  EXPECT_GT(gnuplot.script().find("set xlabel 't'"), gnuplot.script().find("plot '")) << "of the lowest panel alone";
+  EXPECT_GT(gnuplot.script().find("set xlabel 't'"), gnuplot.script().find("plot '")) << "only the lowest panel has it";
 }
 
 TEST(PlotData, LinesOfOnePanelHaveColoursOfTheirOwn) {
@@ -72,7 +72,7 @@ TEST(PlotData, LinesOfOnePanelHaveColoursOfTheirOwn) {
   EXPECT_NE(plot.substr(first, 12), plot.substr(second, 12));
 }
 
-// A long line, or band, is thinned, and no spike gets lost.
+// A long line, or band, is thinned without losing spikes.
 TEST(PlotData, ThinnedLinesKeepTheirExtremes) {
   const StandInGnuplot gnuplot;
   Line line{"line", {}, {}};
@@ -119,7 +119,7 @@ TEST(PlotData, AxesHoldAllValues) {
   EXPECT_THAT(heights_of(panel({1.0, 100.0, 10.0, 10.0}), true), near(std::pow(10.0, -0.12), std::pow(10.0, 2.12)));
 }
 
-// From 0, and where both axes are logarithmic from the first point of all.
+// The axis starts at 0, or, if both axes are logarithmic, at the first point of all lines.
 TEST(PlotData, TheHorizontalAxisBeginsWithTheData) {
   const Panel panel{.y_label = "a", .lines = {{"one", {0.5, 8.0}, {1.0, 2.0}}, {"two", {0.25, 8.0}, {1.0, 2.0}}}};
   for (const bool logarithmic : {false, true}) {
@@ -135,7 +135,7 @@ struct Name {
   double height = 0.0;
 };
 
-// Those in the margin.
+// The names in the margin.
 std::vector<Name> names_of(const StandInGnuplot& gnuplot) {
   std::vector<Name> names;
   for (const std::string& text : gnuplot.commands("set label ")) {
@@ -147,7 +147,7 @@ std::vector<Name> names_of(const StandInGnuplot& gnuplot) {
   return names;
 }
 
-// Beside the ends of the lines, moved apart where these are too near each other.
+// Names are at the ends of the lines, moved apart if these are too close.
 TEST(PlotData, NamesStandWhereLinesEnd) {
   for (const bool logarithmic : {false, true}) {
     const StandInGnuplot gnuplot;
@@ -178,7 +178,7 @@ TEST(PlotData, ALineThatReachesTheMarginIsNotGone) {
   EXPECT_THAT(gnuplot.script(), HasSubstr("set label 1002 '' at first 0.5, first 5 point"));
 }
 
-// A guide has its name within the panel: left of its end, or above its beginning where it ends at the margin.
+// The name of a guide is inside the panel: left of its end, or above its start if it ends at the margin.
 TEST(PlotData, GuidesAreNamedWithinThePanel) {
   const StandInGnuplot gnuplot;
   const Panel panel{.y_label = "a",
@@ -214,7 +214,7 @@ Disks disks_of_speeds(DiskId count, double factor) {
   return d;
 }
 
-// Ten disks have lines, eleven have bands: from the 5 % to the 95 % and so on inwards.
+// Ten disks are drawn as lines, eleven as bands: from the 5 % to the 95 % quantile, and so on inwards.
 TEST(PlotData, VelocitiesAreThoseOfTheirComponent) {
   VelocityRecord ten, eleven;
   for (const double t : {0.0, 1.0}) {

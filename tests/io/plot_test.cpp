@@ -1,4 +1,4 @@
-// Plots: what is recorded, that gnuplot draws it whatever the title holds, and runs without gnuplot.
+// Plots: the data recorded, drawing by gnuplot with any title, and runs without gnuplot.
 #include "io/plots/plot.hpp"
 
 #include <gmock/gmock.h>
@@ -62,10 +62,10 @@ TEST_F(Plot, VelocitiesOfTwoDisks) {
   for (int k = 0; k < 10000; ++k) record(r, disks_with_ids({0, 1}), 0.01 * k);
   const std::string path = at("velocity.svg");
   const std::string marker = at("injected");
-  // A title is only text, whatever it says to gnuplot or to a shell.
+  // A title is only text, even if gnuplot or a shell could take it for a command.
   for (const std::string& title : {"it's `touch " + marker + "`", "\n'; system('touch " + marker + "')"}) {
     ASSERT_TRUE(plot_velocity(path, title, r));
-    EXPECT_TRUE(text_of(path).find(marker) != std::string::npos) << "all of it is shown";
+    EXPECT_TRUE(text_of(path).find(marker) != std::string::npos) << "the whole title must be shown";
     EXPECT_FALSE(fs::exists(marker));
   }
   ASSERT_TRUE(plot_velocity(path, "it's <&> {/Bold é}", r));
@@ -73,10 +73,10 @@ TEST_F(Plot, VelocitiesOfTwoDisks) {
   for (const char* const shown : {"disk 0", "disk 1", "time t", ">vx<", ">vy<", "&lt;&amp;", "é"}) {
     EXPECT_TRUE(svg.find(shown) != std::string::npos) << shown;
   }
-  EXPECT_LT(svg.size(), 600000U) << "long lines are thinned out";
+  EXPECT_LT(svg.size(), 600000U) << "long lines must be thinned";
 }
 
-// Of more disks than there are colours, one sees how they are distributed.
+// With more disks than colours the distribution of velocities is shown.
 TEST_F(Plot, VelocitiesOfManyDisksAreBands) {
   VelocityRecord r;
   for (int k = 0; k < 9000; ++k) {
@@ -113,7 +113,7 @@ TEST_F(Plot, BandsDoNotDependOnStorageOrder) {
   EXPECT_NEAR(a.bands[0].vx[5], std::sin(0.45 * M_PI), 0.01);
 }
 
-// Which zero is the least, and so what is written, hung on the storage order.
+// Which zero is the least, and so its sign in the file, once depended on the order of storage.
 TEST_F(Plot, ZerosOfBandsHaveNoSign) {
   VelocityRecord r;
   Disks d;
@@ -125,7 +125,7 @@ TEST_F(Plot, ZerosOfBandsHaveNoSign) {
   }
 }
 
-// Of many disks every second or third is looked at, by its id; here none has such an id.
+// Of many disks every second or third is taken, by its id; here no disk has such an id.
 TEST_F(Plot, BandsOfDisksWhoseIdsLieBetweenTheMultiples) {
   VelocityRecord r;
   Disks d;
@@ -150,14 +150,14 @@ TEST_F(Plot, ALineThatEndsEarlyIsMarked) {
 TEST_F(Plot, NothingToShowIsStillAPlot) {
   const std::string path = at("empty.svg");
   EXPECT_TRUE(plot_velocity(path, "no disks", {}));
-  EXPECT_TRUE(text_of(path).find("no data") != std::string::npos) << "it says so";
+  EXPECT_TRUE(text_of(path).find("no data") != std::string::npos) << "the plot must say so";
   EXPECT_TRUE(plot_energy(path, "one frame at rest", {{0.0}, {0.0}, {0.0}, {0.0}}));
   EXPECT_TRUE(plot_energy(path, "", {{0.0, 1.0}, {2.0, 1.0}, {0.0, 1.0}, {2.0, 2.0}}));
   EXPECT_TRUE(text_of(path).find("potential") != std::string::npos);
   EXPECT_TRUE(text_of(path).find("no data") == std::string::npos);
 }
 
-// Where total is more than kinetic and potential, spins have the rest, and a line of their own.
+// If the total energy exceeds kinetic and potential energy, the rest belongs to spins and has its own line.
 TEST_F(Plot, TheEnergyOfSpinsIsALine) {
   const std::string path = at("energy.svg");
   ASSERT_TRUE(plot_energy(path, "smooth", {{0.0, 1.0}, {2.0, 0.2}, {1.0, 0.1}, {3.0, 0.3}}));
@@ -168,7 +168,7 @@ TEST_F(Plot, TheEnergyOfSpinsIsALine) {
   EXPECT_TRUE(text_of(path).find(">rotational<") != std::string::npos) << "more than rounding";
 }
 
-// As a line it would not be seen: a run of one window has one sample of the pressure.
+// A single point drawn as a line would be invisible: a run of one window has one sample of the pressure.
 TEST_F(Plot, ASinglePointIsSeen) {
   const std::string path = at("point.svg");
   const std::string drawn = "xlink:href='#gpPt6'";
@@ -189,11 +189,11 @@ TEST_F(Plot, LogarithmicAxesAndAGuide) {
   }
   const Line earlier{"early", {1e-5, 100.0}, {1.0, 2.0}};
   ASSERT_TRUE(draw_svg({"log", "t", 100.0, {{"y", {earlier, guide}}}, true}, path));
-  EXPECT_TRUE(text_of(path).find(">1e-05<") != std::string::npos) << "from where the first line begins";
-  ASSERT_TRUE(draw_svg({"nothing", "t", 0.0, {{"y", {}}}, true}, path)) << "nor is nothing a reason to fail";
+  EXPECT_TRUE(text_of(path).find(">1e-05<") != std::string::npos) << "the axis starts where the first line does";
+  ASSERT_TRUE(draw_svg({"nothing", "t", 0.0, {{"y", {}}}, true}, path)) << "no data must not be an error";
 }
 
-// A title and names of any length leave the subject to be read, and stay within the picture.
+// With titles and names of any length the subject remains readable, and all stay within the picture.
 TEST_F(Plot, LongTitlesAndNamesAreShortened) {
   const std::string long_title = "é" + std::string(500, 'x');
   EXPECT_EQ(shortened("é23", 3), "é23");
@@ -211,7 +211,7 @@ TEST_F(Plot, LongTitlesAndNamesAreShortened) {
   EXPECT_TRUE(svg.find("xx…: energy<") != std::string::npos);
 }
 
-// Browsers show nothing of a file with "]]>" in its text, or with U+FFFE.
+// Browsers show nothing of a file whose text contains "]]>" or U+FFFE.
 TEST_F(Plot, TitlesThatNoXmlMayHave) {
   const std::string path = at("odd.svg");
   ASSERT_TRUE(draw_svg({"a]]>b]]>\xef\xbf\xbe\xef\xbf\xbf.", "t", 1.0, {{"y", {}}}}, path));
@@ -220,7 +220,7 @@ TEST_F(Plot, TitlesThatNoXmlMayHave) {
   EXPECT_TRUE(svg.find("]]>") == std::string::npos);
 }
 
-// RFC 3629, table 3-7 of the Unicode standard: the ends of what the first two bytes may be.
+// RFC 3629, table 3-7 of the Unicode standard: the limits of the first two bytes.
 TEST(ShownText, LettersAreThoseOfUtf8) {
   for (const char* const letter : {"a", "\xc2\x80", "\xdf\xbf", "\xe0\xa0\x80", "\xe1\x80\x80", "\xed\x9f\xbf",
                                    "\xee\x80\x80", "\xf0\x90\x80\x80", "\xf1\x80\x80\x80", "\xf4\x8f\xbf\xbf"}) {
@@ -237,7 +237,7 @@ TEST_F(Plot, AFullDiskIsAnError) {
   EXPECT_THROW(plot_energy("/dev/full", "full", {{0.0, 1.0}, {2.0, 1.0}, {0.0, 1.0}, {2.0, 2.0}}), RunError);
 }
 
-// gnuplot says nothing of a full disk: the end of its picture is missing, whatever its exit status.
+// gnuplot does not report a full disk: the end of its picture is missing, whatever its exit status.
 TEST_F(Plot, WhatGnuplotLeavesUndoneIsAnError) {
   const std::string path = at("part.svg"), saved = getenv("PATH");
   const auto complaint_with = [&](const std::string& commands) -> std::string {

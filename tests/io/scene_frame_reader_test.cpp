@@ -1,4 +1,4 @@
-// The frame of a trajectory from which a scene starts: by number, by time, and the last one where neither is asked for.
+// The frame of a trajectory from which a scene starts: by number, by time, or the last one if neither is given.
 #include "io/trajectory/scene_frame_reader.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ using testing::ElementsAre;
 
 class SceneFrames : public ::testing::Test {
  protected:
-  // A disk at x = the number of the frame, at these times.
+  // A trajectory with a disk at x = number of the frame, at these times.
   std::string with_times(const std::vector<double>& times) const {
     std::string text;
     for (std::size_t k = 0; k < times.size(); ++k) {
@@ -56,8 +56,8 @@ TEST_F(SceneFrames, IsTheOneAskedFor) {
   for (Count k = 1; k <= 4; ++k) EXPECT_EQ(x_of({file, k, {}}), static_cast<double>(k));
   EXPECT_EQ(x_of({file, {}, 1.2}), 2.0);
   EXPECT_EQ(x_of({file, {}, 2.9}), 3.0);
-  EXPECT_EQ(x_of({file, {}, 3.0}), 3.0) << "of two that are as near the earlier";
-  EXPECT_EQ(x_of({file, {}, 4.0 + 1e-12}), 4.0) << "but for rounding";
+  EXPECT_EQ(x_of({file, {}, 3.0}), 3.0) << "of two equally near ones the earlier";
+  EXPECT_EQ(x_of({file, {}, 4.0 + 1e-12}), 4.0) << "rounding must not matter";
   EXPECT_EQ(x_of({folder_.path().string(), 2, {}}), 2.0) << "in the folder of a run";
 }
 
@@ -88,8 +88,8 @@ TEST_F(SceneFrames, OfARunThatIsNotFinishedItsTrajectoryIsToBeNamed) {
   EXPECT_EQ(x_of({moved, {}, {}}), 2.0);
 }
 
-// By the name that the scene beside it gives to a group, and by ids, which run on from group to group: a file that
-// shows one group alone does not number them.
+// A group is found by the name that the scene beside the file gives to it, and by ids, which go on from group to group:
+// a file with one group only does not number them.
 TEST_F(SceneFrames, ShowsOneGroupAlone) {
   const auto radii = [this](const char* group) {
     return read_scene_frame({folder_.path().string(), {}, {}, false, group}).radius;
@@ -115,8 +115,8 @@ TEST_F(SceneFrames, ShowsOneGroupAlone) {
   EXPECT_EQ(message("pegs"), file + ": tells of no group \"pegs\"; expected one of a, b, sources");
 }
 
-// A run with a shear has the flow in what it writes: by the scene beside it, if that is its own. Such a run counts no
-// rounds, so that a frame that has them is of none.
+// The velocities written by a run with shear include the flow. Its rate is taken from the scene beside the file, if
+// that is the run's own. A run with shear counts no rounds, so a frame with rounds is from a run without it.
 TEST_F(SceneFrames, TellsTheShearOfItsRun) {
   const auto frame = [this](const char* sides, const char* column, const char* value) {
     folder_.write("trajectory.xyz",
@@ -132,7 +132,7 @@ TEST_F(SceneFrames, TellsTheShearOfItsRun) {
                               "positions = [[1, 2]]\nradius = 0.5\nmass = 6\n[run]\nt_end = 1\n",
                               height, more));
   };
-  EXPECT_EQ(frame("T T", "", "").shear_rate, std::nullopt) << "no scene tells";
+  EXPECT_EQ(frame("T T", "", "").shear_rate, std::nullopt) << "there is no scene with the rate";
   EXPECT_EQ(frame("T F", "", "").shear_rate, 0.0);
   EXPECT_EQ(frame("T T", ":map_shift:I:2", " 0 0").shear_rate, 0.0);
   scene(8, "shear_rate = 0.25\n");
@@ -142,12 +142,12 @@ TEST_F(SceneFrames, TellsTheShearOfItsRun) {
   scene(8, "");
   EXPECT_EQ(frame("T T", "", "").shear_rate, 0.0);
   scene(9, "shear_rate = 0.25\n");
-  EXPECT_EQ(frame("T T", "", "").shear_rate, std::nullopt) << "of another box";
+  EXPECT_EQ(frame("T T", "", "").shear_rate, std::nullopt) << "the scene has another box";
   folder_.write("scene.toml", "[box\n");
   EXPECT_EQ(frame("T T", "", "").shear_rate, std::nullopt);
 }
 
-// Whose velocities are those of drawn displacements, by the scene beside it.
+// Velocities may be those of drawn displacements; the scene beside the file tells.
 TEST_F(SceneFrames, TellsThatItsDisksAreBrownian) {
   with_times({0.0});
   const auto brownian = [this](std::string_view physics) {
@@ -159,7 +159,7 @@ TEST_F(SceneFrames, TellsThatItsDisksAreBrownian) {
   };
   EXPECT_FALSE(brownian(""));
   EXPECT_TRUE(brownian("[physics]\ndiffusion = 0.1\n"));
-  EXPECT_FALSE(brownian("[physics]\ndiffusion = 0.1\naccumulate = true\n")) << "which has velocities";
+  EXPECT_FALSE(brownian("[physics]\ndiffusion = 0.1\naccumulate = true\n")) << "such disks have velocities";
   EXPECT_FALSE(read_scene_frame({folder_.path().string(), {}, {}, false}).brownian) << "not asked for velocities";
 }
 

@@ -1,4 +1,4 @@
-// series.csv: the columns, interval means, and full disks.
+// series.csv: columns, interval means, and full disks.
 #include "io/tables/series.hpp"
 
 #include <gmock/gmock.h>
@@ -60,7 +60,7 @@ TEST(Series, RowsHoldStateAndIntervalMeans) {
   SeriesWriter series(path, small_scene());
   series.write(d, 0.0, state);
   state.time = 0.5;
-  state.counters.disk_time = 1.5;  // both disks, and a third for the first half of it
+  state.counters.disk_time = 1.5;  // both disks, and a third one for half of the time
   state.counters.collisions = 3;
   state.counters.wall_collisions = 5;
   state.counters.virial = 8.0;
@@ -71,7 +71,7 @@ TEST(Series, RowsHoldStateAndIntervalMeans) {
   state.counters.collisions = 4;
   state.counters.removed = 7;
   series.write(d, 1.0, state);
-  series.write(d, 1.0, state);  // a frame of exact that lies in the window of the one before
+  series.write(d, 1.0, state);  // a frame of exact in the same window as the one before
   series.close();
 
   auto rows = read_csv(path);
@@ -95,8 +95,8 @@ TEST(Series, RowsHoldStateAndIntervalMeans) {
   EXPECT_EQ(rows[2]["max_overlap"], 0.0);
 }
 
-// From a mark on it has the rows of a run that was never stopped, whatever came after the mark: the means of the next
-// one are over all the time since the last before it.
+// A series continued from a mark has the rows of a run that was never stopped, whatever was written after the mark: the
+// means of its first row include all time since the last row before the mark.
 TEST(Series, GoesOnFromAMark) {
   const test::TestFolder folder("series_mark");
   const auto write = [&](SeriesWriter& series, int k) {
@@ -142,7 +142,7 @@ TEST(Series, AFullDiskIsAnError) {
   EXPECT_THROW(series.write({}, 0.0, {}), RunError);
 }
 
-// Forces are means since the row before: impulses 4, 6, 8, 10 in 2 units of time.
+// Forces are means since the previous row: impulses 4, 6, 8, 10 in 2 units of time.
 TEST(SeriesColumns, ForcesAreMeansSinceTheRowBefore) {
   const Scene scene = test::scene_of(Method::exact, 10.0, 10.0, 0.0, 10.0);
   SeriesMeter meter(scene, false);
@@ -162,7 +162,7 @@ TEST(SeriesColumns, ForcesAreMeansSinceTheRowBefore) {
   EXPECT_EQ(side, 4U);
 }
 
-// Turning has one degree of freedom: T is twice the mean energy. What walls gave: work, then momentum along x and y.
+// Rotation has one degree of freedom, so T is twice the mean energy. Walls gave work, and momentum along x and y.
 TEST(SeriesColumns, RotationAndPushesAreTheirOwn) {
   Disks disks;
   disks.inertia = 0.5;
@@ -177,8 +177,8 @@ TEST(SeriesColumns, RotationAndPushesAreTheirOwn) {
   EXPECT_EQ(side_column_values(EnergySources(scene), counters), (std::vector<double>{1.0, 2.0, 3.0}));
 }
 
-// At height 3 and 2 of 4, where a flow of rate 0.5 has speeds 0.5 and 0: the disks have (1, 2) and (-1, 1) beside it.
-// The other way round the flow is the other way, and the viscosity with it, as the stress is the same.
+// At heights 3 and 2 of 4 a flow of rate 0.5 has speeds 0.5 and 0: relative to it the disks have (1, 2) and (-1, 1).
+// With the opposite rate the flow is reversed, and so is the sign of the viscosity, as the stress is the same.
 TEST(SeriesColumns, InAShearTemperatureAndStressAreOfMotionRelativeToTheFlow) {
   for (const double rate : {0.5, -0.5}) {
     Scene scene = test::scene_of(Method::exact, 10.0, 4.0, 0.0, 10.0);
@@ -206,8 +206,8 @@ TEST(SeriesColumns, InAShearTemperatureAndStressAreOfMotionRelativeToTheFlow) {
   }
 }
 
-// The temperature of a group, too: it is that of the same disks without a flow. Its mean velocity and its energy are
-// those of the disks as they move.
+// The temperature of a group, too, is that of the same disks without a flow. Its mean velocity and its energy include
+// the flow.
 TEST(SeriesColumns, InAShearTheTemperatureOfAGroupIsOfMotionRelativeToTheFlow) {
   Scene scene = test::scene_of(Method::exact, 10.0, 4.0, 0.0, 10.0);
   test::set_sides(scene.box, SideKind::periodic, SideKind::periodic);
@@ -232,8 +232,8 @@ TEST(SeriesColumns, InAShearTheTemperatureOfAGroupIsOfMotionRelativeToTheFlow) {
   EXPECT_EQ(sheared["kinetic_all"], 0.5 * 2.0 * (1.5 * 1.5 + 4.0 + 1.0 + 1.0));
 }
 
-// The images above have moved to the side by 1 at time 0.5: there is a disk's image above the other one then, which it
-// overlaps by a quarter of both radii together.
+// At time 0.5 the upper images have moved by 1: then the image of one disk is above the other and overlaps it by a
+// quarter of the sum of the radii.
 TEST(SeriesColumns, OverlapsAreThoseOfTheBoxAtTheTimeOfTheRow) {
   Scene scene = test::scene_of(Method::pairwise, 10.0, 4.0, 0.1, 10.0);
   test::set_sides(scene.box, SideKind::periodic, SideKind::periodic);
@@ -254,7 +254,7 @@ TEST(SeriesColumns, OverlapsAreThoseOfTheBoxAtTheTimeOfTheRow) {
   EXPECT_DOUBLE_EQ(overlap_at(0.5), 0.25);
 }
 
-// The names of all columns in their order, and each value under its own.
+// The names of all columns in their order, with each value under its own name.
 TEST(Series, ValuesStandUnderTheirNames) {
   Scene scene = test::scene_of(Method::exact, 10.0, 10.0, 0.0, 10.0);
   scene.box.temperatures[0] = 1.0;
@@ -311,7 +311,7 @@ TEST(Series, ValuesStandUnderTheirNames) {
   EXPECT_EQ(row["y_one"], 6.0);
 }
 
-// With the lid at 4 of 10 at the end of the interval.
+// At the end of the interval the lid is at 4 of 10.
 TEST(SeriesColumns, ThePressureIsThatOfTheBoxAtTheTimeOfTheRow) {
   Scene scene = test::scene_of(Method::exact, 10.0, 10.0, 0.0, 10.0);
   scene.box.motions[3] = {SideMotion::Kind::steady, 0.0, 3.0};
@@ -326,7 +326,7 @@ TEST(SeriesColumns, ThePressureIsThatOfTheBoxAtTheTimeOfTheRow) {
   }
 }
 
-// What is made of velocities that are drawn step by step means nothing.
+// Quantities computed from velocities that are drawn in each step have no meaning.
 TEST(SeriesColumns, OfBrownianDisksWhatVelocitiesGiveIsNoNumber) {
   Scene scene = test::scene_of(Method::pairwise, 10.0, 10.0, 0.1, 10.0);
   scene.physics.diffusion = 1.0;
@@ -344,7 +344,7 @@ TEST(SeriesColumns, OfBrownianDisksWhatVelocitiesGiveIsNoNumber) {
   }
 }
 
-// One that an earlier version began lacked the columns that came since, and got rows with them.
+// A series begun by an earlier version lacks columns added since, and once got rows that included them.
 TEST(Series, GoesOnWithItsOwnColumnsAlone) {
   const test::TestFolder folder("series_columns");
   const std::string path = folder.path() / "series.csv";
@@ -357,12 +357,12 @@ TEST(Series, GoesOnWithItsOwnColumnsAlone) {
   Scene other = small_scene();
   other.physics.surfaces.inertia = 0.5;
   EXPECT_THROW(SeriesWriter(path, other, mark), InputError);
-  EXPECT_EQ(read_csv(path).size(), 1U) << "the file is as it was";
+  EXPECT_EQ(read_csv(path).size(), 1U) << "the file must be unchanged";
   SeriesWriter(path, small_scene(), mark).write(Disks{}, 1.0, State{});
   EXPECT_EQ(read_csv(path).size(), 2U);
 }
 
-// A file that was cut within its heading is too short; its columns may have been the right ones.
+// A file cut within its header is too short, and must not be reported as one with wrong columns.
 TEST(Series, OneThatWasCutInItsHeadingIsTooShort) {
   const test::TestFolder folder("series_cut");
   const std::string path = folder.path() / "series.csv";
@@ -375,7 +375,7 @@ TEST(Series, OneThatWasCutInItsHeadingIsTooShort) {
   std::filesystem::resize_file(path, 20);
   try {
     const SeriesWriter going_on(path, small_scene(), mark);
-    FAIL() << "it went on";
+    FAIL() << "the series was continued";
   } catch (const std::exception& error) {
     EXPECT_THAT(error.what(), ::testing::HasSubstr("has 20 bytes; expected "));
   }

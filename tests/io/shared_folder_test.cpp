@@ -1,4 +1,4 @@
-// Two runs that want one folder: one has it, and the other is told.
+// Two runs that want the same folder: one gets it, and the other gets an error.
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -35,7 +35,7 @@ class SharedFolder : public ::testing::Test {
   const fs::path input_ = base_ / "input.toml";
 };
 
-// A program may run scenes side by side: each folder is locked for one of them, whatever the others begin and end.
+// A program may run scenes side by side: each folder stays locked for one of them, whatever the others begin and end.
 TEST_F(SharedFolder, ThreadsHaveFoldersOfTheirOwn) {
   std::atomic<int> refused = 0;
   {
@@ -57,8 +57,8 @@ TEST_F(SharedFolder, ThreadsHaveFoldersOfTheirOwn) {
   EXPECT_EQ(refused, 200);
 }
 
-// A run is killed just after it has forked a child, which has not come to its exec: the child has every descriptor of
-// the run, but not its lock.
+// A run is killed just after it has forked a child that has not yet reached its exec: the child has all file
+// descriptors of the run, but must not keep its lock.
 TEST_F(SharedFolder, TheLockGoesWithTheProcess) {
   std::array<int, 2> held{};
   std::array<int, 2> child_may_end{};
@@ -100,8 +100,7 @@ TEST_F(SharedFolder, OneProcessLocksAFolderOnce) {
   EXPECT_FALSE(fs::exists(folder / "carom-unfinished"));
 }
 
-// Which makes the folder, and takes away again what it made, just when this run looks at it or is about to make a
-// folder in there.
+// Another run makes the folder and removes it again, just when this run tests it or is about to make a folder in it.
 TEST_F(SharedFolder, AnotherRunFindsOutWhetherItMayWriteThere) {
   const fs::path folder = base_ / "shared" / "run";
   std::atomic<bool> done{false};
@@ -129,7 +128,7 @@ TEST_F(SharedFolder, AnotherRunFindsOutWhetherItMayWriteThere) {
   EXPECT_EQ(said, "");
 }
 
-// Both find that nothing is there. The second took away what the first had made and locked meanwhile.
+// Both runs find no folder. Once the second removed what the first had made and locked meanwhile.
 TEST_F(SharedFolder, OfTwoThatBeginAtOnceOneWrites) {
   const fs::path folder = base_ / "out";
   for (int k = 0; k < 150; ++k) {
@@ -150,8 +149,7 @@ TEST_F(SharedFolder, OfTwoThatBeginAtOnceOneWrites) {
   }
 }
 
-// The folder of a run that still writes: one that comes second takes nothing away, and one that has ended gives up its
-// lock.
+// The folder of a run that is still writing: a second run removes nothing; and a run that has ended gives up its lock.
 TEST_F(SharedFolder, WhoComesSecondTakesNothingAway) {
   const fs::path folder = base_ / "out";
   {
@@ -169,7 +167,7 @@ TEST_F(SharedFolder, WhoComesSecondTakesNothingAway) {
   EXPECT_FALSE(is_being_written(folder));
 }
 
-// Runs of one scene that begin at once: all found the same folder free. Those that come later take the next ones.
+// Runs of one scene that start at once all find the same folder free. Those that come later take the next names.
 TEST_F(SharedFolder, OfSeveralThatBeginAtOnceEachHasAFolder) {
   const UsualFolder found{base_ / "out", base_ / "out"};
   std::array<std::unique_ptr<OutputFolder>, 4> runs;
@@ -188,8 +186,8 @@ TEST_F(SharedFolder, OfSeveralThatBeginAtOnceEachHasAFolder) {
   EXPECT_THAT(names, ::testing::UnorderedElementsAre("out", "out-2", "out-3", "out-4"));
 }
 
-// Two that last no longer than it takes to make a folder: one may begin and end between the other's look at the folder
-// and its lock, and what it has left stays.
+// Two runs that are shorter than the making of a folder: one may begin and end between the other's test of the folder
+// and its lock, and its results must stay.
 TEST_F(SharedFolder, OfTwoShortOnesTheFirstStays) {
   for (int k = 0; k < 150; ++k) {
     const fs::path folder = base_ / std::to_string(k);
@@ -211,7 +209,7 @@ TEST_F(SharedFolder, OfTwoShortOnesTheFirstStays) {
   }
 }
 
-// A run that ends takes the folder away that another one is about to lock.
+// A run that ends may remove the folder that another is about to lock.
 TEST_F(SharedFolder, AFolderThatHasGoneIsNotLocked) {
   FolderLock lock;
   EXPECT_FALSE(lock.take(base_ / "gone"));

@@ -1,4 +1,4 @@
-// Numbers are written as std::to_chars writes them, whose text is the shortest that reads back the same bits.
+// Numbers are written as by std::to_chars, whose text is the shortest that reads back the same bits.
 #include "io/trajectory/shortest_decimal.hpp"
 
 #include <gtest/gtest.h>
@@ -22,8 +22,8 @@ std::string by_library(Number value) {
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
-// Of a number and its negative; empty where both are right, else what stands there. What lies behind the room that the
-// writer may use stays as it is.
+// Tests a number and its negative: returns an empty text if both are right, otherwise the wrong text. Memory beyond the
+// space for the writer must not change.
 template <class Number>
 std::string wrong(Number value) {
   for (const Number number : {value, -value}) {
@@ -38,7 +38,7 @@ std::string wrong(Number value) {
   return "";
 }
 
-// A number and those around it.
+// Tests a number and its neighbours.
 template <class Number>
 std::string wrong_near(Number value) {
   Number low = value, high = value;
@@ -74,7 +74,7 @@ TYPED_TEST(ShortestDecimal, AroundPowersOfTwoAndOfTen) {
   }
 }
 
-// Such as half-way between two decimals of the fewest digits, where the even one is written.
+// Such numbers may be half-way between two shortest decimals, of which the even one is written.
 TYPED_TEST(ShortestDecimal, NumbersOfFewBits) {
   std::mt19937_64 random(2);
   for (int k = 0; k < 200'000; ++k) {
@@ -97,7 +97,7 @@ TYPED_TEST(ShortestDecimal, AnyBits) {
   using Bits = std::conditional_t<sizeof(TypeParam) == 8, std::uint64_t, std::uint32_t>;
   for (int k = 0; k < 100'000; ++k) {
     const auto number = std::bit_cast<TypeParam>(static_cast<Bits>(random()));
-    if (std::isnan(number)) continue;  // their signs and payloads have no text of their own
+    if (std::isnan(number)) continue;  // their signs and payloads have no text
     ASSERT_EQ(wrong(number), "");
   }
 }

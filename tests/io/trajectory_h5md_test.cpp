@@ -1,4 +1,4 @@
-// trajectory.h5 of runs: the same bits as trajectory.xyz, read by h5py too; subsets; single precision; a full disk.
+// trajectory.h5 of runs: the same bits as trajectory.xyz, also read by h5py; selections; single precision; a full disk.
 #include "io/trajectory/trajectory_h5md.hpp"
 
 #include <gmock/gmock.h>
@@ -62,7 +62,7 @@ std::pair<int, std::string> shell(const std::string& command) {
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text};
 }
 
-// Runs the scene in `name`/, with these options.
+// Runs the scene with these options; the results are in the folder `name`.
 void run_scene(const TestFolder& folder, const std::string& name, const std::string& options = "") {
   const std::string scene = folder.write("scene.toml", open_scene);
   const auto [status, text] = shell(std::string(CAROM_PROGRAM) + " run " + scene + " --quiet -o " +
@@ -111,7 +111,7 @@ TEST(TrajectoryH5md, SubsetsHoldTheDisksAskedFor) {
       }
     }
     EXPECT_GT(seen, select == "\"three\"" ? 30U : 100U);
-    const bool moving = select[0] == '[';  // places change hands: the sizes of a frame are its own
+    const bool moving = select[0] == '[';  // rows change their disks, so each frame has its own sizes
     const std::string xdmf = test::text_of((folder.path() / "h5/trajectory.xdmf").string());
     EXPECT_THAT(xdmf, HasSubstr(moving ? "/disks/radius/value</DataItem>" : "/disks/radius</DataItem>"));
   }
@@ -136,7 +136,7 @@ TEST(TrajectoryH5md, SinglePrecisionIsTheNearestFloat) {
   EXPECT_FALSE(rounded.read(b));
 }
 
-// As few digits as give the float back.
+// The fewest digits that give the same float back.
 TEST(TrajectoryXyzSingle, IsTheNearestFloat) {
   const TestFolder folder("xyz_single");
   run_scene(folder, "all");
@@ -157,7 +157,7 @@ TEST(TrajectoryXyzSingle, IsTheNearestFloat) {
   EXPECT_THAT(test::text_of(path), testing::ContainsRegex("\nX [0-9]+\\.[0-9]{1,8} [0-9.]{1,10} 0 -?[0-9]\\.[0-9]+ "));
 }
 
-// It was written as an infinite one, without a word.
+// Such a speed was once written as infinite, without an error.
 TEST(TrajectoryH5md, SinglePrecisionHasNoPlaceForTheFastest) {
   const TestFolder folder("h5md_fast");
   const std::string scene = folder.write("fast.toml", R"([box]

@@ -1,4 +1,4 @@
-// Trajectories as programs for molecules read them: ASE and MDAnalysis, each by its own reader.
+// Trajectories read by programs for molecules, ASE and MDAnalysis, each with its own reader.
 #include <fmt/format.h>
 
 #include "tests/support/program_support.hpp"
@@ -10,7 +10,7 @@ using test::Outcome;
 using test::text_of;
 using testing::HasSubstr;
 
-// Two groups and a periodic side: all columns that there are.
+// Two groups and a periodic side, which gives all possible columns.
 constexpr const char* periodic_scene = R"(title = "round and round"
 seed = 5
 [box]
@@ -41,14 +41,14 @@ class TrajectoryPrograms : public test::ProgramTest {
  protected:
   TrajectoryPrograms() { write("scene.toml", periodic_scene); }
 
-  // Runs the scene in the folder `name` and returns the text of its trajectory.
+  // Runs the scene in the folder `name`, and returns the text of its trajectory.
   std::string run_scene(const std::string& name, const std::string& options = "") {
     const Outcome o = carom("run scene.toml --quiet --force -o " + name + " " + options);
     EXPECT_EQ(o.status, 0) << o.err;
     return text_of(at(name + "/trajectory.xyz"));
   }
 
-  // What the two programs say of these files.
+  // What the two programs read from these files.
   std::string read_as_molecules(const std::string& files) {
     const Outcome o = shell("/usr/bin/python3 " CAROM_SOURCE_DIR "/tests/io/read_as_molecules.py " + files);
     EXPECT_EQ(o.status, 0) << o.out << o.err;
@@ -74,7 +74,7 @@ TEST_F(LongTrajectoryPrograms, MdanalysisReadsTheThreeDimensionsOfH5md) {
   EXPECT_EQ(carom("render h5 --frame 3").status, 0);
 }
 
-// Unwrapped, a disk goes no further between two frames than it can have flown.
+// Unwrapped, a disk moves between two frames no further than it can have flown.
 TEST_F(TrajectoryPrograms, RoundsMakePathsContinuous) {
   std::istringstream file(run_scene("out", "--set output.every=0.05"));
   std::vector<double> before;
@@ -101,7 +101,7 @@ TEST_F(TrajectoryPrograms, RoundsMakePathsContinuous) {
   EXPECT_GT(crossings, 100);
 }
 
-// The counts are the same whatever the engine, the number of frames, and interruptions.
+// The counts of rounds do not depend on the engine, the number of frames, or interruptions.
 TEST_F(TrajectoryPrograms, RoundsDoNotDependOnHowTheRunWasMade) {
   const auto last_frame = [&](const std::string& name, const std::string& options) {
     const std::string all = run_scene(name, options);

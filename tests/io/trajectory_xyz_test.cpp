@@ -1,4 +1,4 @@
-// Trajectories come back bit for bit, in order of id, and damaged ones are named by line.
+// Trajectories are read back bit for bit, in order of ids, and errors in damaged ones are reported with their lines.
 #include "io/trajectory/trajectory_xyz.hpp"
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ class TrajectoryXyz : public ::testing::Test {
   std::string text() const { return test::text_of(path_); }
   void write_text(const std::string& text) const { std::ofstream(path_) << text; }
 
-  // The message of the error that reading the file to its end gives.
+  // The error when the file is read to its end.
   std::string error() const {
     try {
       XyzReader reader(path_);
@@ -64,11 +64,11 @@ TEST_F(TrajectoryXyz, HeaderIsTheContract) {
                                 "-1.7976931348623157e+308 3 0 0.25 2 0\n"));
 }
 
-// Columns that only some scenes have: a group where there are several, rounds where a side is periodic.
+// Columns that only some scenes have: the group, if there are several, and rounds, if a side is periodic.
 TEST_F(TrajectoryXyz, GroupsAndRoundsAreColumnsOfTheirOwn) {
   DisplacementTally rounds;
   Disks disks = three_disks();
-  disks.x = {99.0, 50.0, 1.0};  // of ids 7, 0 and 3
+  disks.x = {99.0, 50.0, 1.0};  // for ids 7, 0 and 3
   follow_rounds(rounds, disks, box_with_periodic_x(), 0.0);
   XyzWriter writer(path_, {box_with_periodic_x(), {}, {1, 4}, &rounds});
   writer.write(disks, 0.0);
@@ -96,7 +96,7 @@ TEST_F(TrajectoryXyz, GroupsAndRoundsAreColumnsOfTheirOwn) {
   EXPECT_THAT(frame.disks.vy, ::testing::ElementsAre(3.0, -4.0, 5e-324, 0.0));
 }
 
-// As Carom wrote it before there was a third coordinate, and as others may order it.
+// As Carom wrote it before there was a third coordinate, and in other orders of columns.
 TEST_F(TrajectoryXyz, OtherLayoutsAreReadByTheirColumns) {
   const std::string head = "1\nLattice=\"9 0 0 0 8 0 0 0 1\" Origin=\"0 0 0\" pbc=\"F T F\" Properties=";
   for (const std::string rest :
@@ -133,12 +133,12 @@ TEST_F(TrajectoryXyz, WhatIsNotInThePlaneOrNotThereIsRefused) {
 
 constexpr const char* columns = "Properties=pos:R:2:velo:R:2:radius:R:1:mass:R:1:id:I:1";
 
-// What stands before the disks of a frame.
+// The first two lines of a frame.
 std::string head_of(int disks, const std::string& keys) {
   return fmt::format("{}\n{} {}", disks, columns, keys);
 }
 
-// A box that leans, or lies elsewhere, would show the disks in other places than they have in it.
+// In a box that is oblique or has another origin the disks would be shown at wrong places.
 TEST_F(TrajectoryXyz, OtherBoxesAreRefused) {
   const auto said = [&](const std::string& lattice, const std::string& more) {
     write_text(head_of(1, fmt::format("Lattice=\"{}\" {} Time=0\n1 2 3 4 5 6 7\n", lattice, more)));
@@ -147,7 +147,8 @@ TEST_F(TrajectoryXyz, OtherBoxesAreRefused) {
   const std::string sound = "9 0 0 0 8 0 0 0 1";
   EXPECT_EQ(said(sound, "pbc=\"T F F\""), "no error");
   EXPECT_EQ(said(sound, "Origin=\"0 0 0\" pbc=\"T F F\""), "no error");
-  EXPECT_EQ(said("9 0 0 0 8 0 0 0 20", "pbc=\"T F F\""), "no error") << "what lies across the plane is no matter";
+  EXPECT_EQ(said("9 0 0 0 8 0 0 0 20", "pbc=\"T F F\""), "no error")
+      << "vectors perpendicular to the plane do not matter";
   EXPECT_EQ(said("9 0 0 3 8 0 0 0 1", "pbc=\"T F F\""),
             path_ + ":2: Lattice is \"9 0 0 3 8 0 0 0 1\", expected \"W 0 0 0 H 0 0 0 1\", W and H above 0");
   for (const char* const bad : {"-9 0 0 0 8 0 0 0 1", "9 0 0 0 0 0 0 0 1", "9 1 0 0 8 0 0 0 1", "9 0 0 0 8 0 0 2 1"}) {
@@ -161,7 +162,7 @@ TEST_F(TrajectoryXyz, OtherBoxesAreRefused) {
   EXPECT_EQ(said(sound, "pbc=\"T F\""), path_ + ":2: expected pbc=\"T F F\", T for each direction that is periodic");
 }
 
-// Keys are whole words outside of quotes, and values whole numbers.
+// Keys are whole words outside quotes, and values are whole numbers.
 TEST_F(TrajectoryXyz, OnlyWhatItSaysIsReadFromAHead) {
   const std::string box = "Lattice=\"9 0 0 0 8 0 0 0 1\" pbc=\"F F F\" ";
   const std::string disk = "\n1 2 3 4 5 6 7\n";
@@ -182,7 +183,7 @@ TEST_F(TrajectoryXyz, OnlyWhatItSaysIsReadFromAHead) {
   }
 }
 
-// And begin with what some editors put there.
+// Lines may end with CR LF, and a file may start with the byte order mark that some editors add.
 TEST_F(TrajectoryXyz, LinesEndAsOnOtherSystems) {
   write_text(
       "\xef\xbb\xbf"
@@ -209,7 +210,7 @@ TEST_F(TrajectoryXyz, BlankLinesAtTheFilesEndAreNoFrame) {
   EXPECT_EQ(error(), path_ + ":6: the line before is blank; expected a frame, or the file's end");
 }
 
-// Other programs may have sorted them in another way.
+// Other programs may have sorted the disks in another way.
 TEST_F(TrajectoryXyz, DisksComeInOrderOfIdHoweverTheyStand) {
   const std::string head =
       "3\nLattice=\"9 0 0 0 8 0 0 0 1\" pbc=\"F F F\" Time=0 "
@@ -229,7 +230,7 @@ TEST_F(TrajectoryXyz, DisksComeInOrderOfIdHoweverTheyStand) {
   EXPECT_EQ(error(), path_ + ":5: disk 5 stands twice in its frame");
 }
 
-// Rounds go with their disks, of each frame its own.
+// Each frame's rounds are sorted with its disks.
 TEST_F(TrajectoryXyz, RoundsComeInOrderOfIdToo) {
   const std::string head =
       "2\nLattice=\"8 0 0 0 6 0 0 0 1\" pbc=\"T T F\" "
@@ -259,7 +260,7 @@ TEST_F(TrajectoryXyz, ValuesThatNoDiskHasAreRefused) {
   EXPECT_THAT(said("1 2 3 4 5 6 7 8"), HasSubstr(":3: 8 columns, expected 7: pos:R:2"));
 }
 
-// Each frame says what columns it has.
+// Each frame declares its own columns.
 TEST_F(TrajectoryXyz, AFrameMayHaveOtherColumnsThanTheOneBefore) {
   const std::string box = " Lattice=\"9 0 0 0 8 0 0 0 1\" pbc=\"F F F\" Time=0\n";
   const std::string properties = columns;
@@ -276,8 +277,8 @@ TEST_F(TrajectoryXyz, AFrameMayHaveOtherColumnsThanTheOneBefore) {
   EXPECT_THAT(frame.group, ::testing::ElementsAre(4U));
 }
 
-// A run that writes has come to the middle of a line: the frame is none yet, and is read from its start once it is
-// there. What is wrong in it is named by its line all the same.
+// A run has written half of a line: the frame does not exist yet, and is read from its start once it is complete.
+// Errors in it still name the right line.
 TEST_F(TrajectoryXyz, AGrowingFileIsReadOn) {
   const std::string head = "1\nLattice=\"9 0 0 0 8 0 0 0 1\" pbc=\"F F F\" Time=0 " + std::string(columns) + "\n";
   write_text(head + "1 2 3 4 5 6 7\n" + head + "1 2 3 4 5 6 1");
@@ -296,7 +297,7 @@ TEST_F(TrajectoryXyz, AGrowingFileIsReadOn) {
   }
 }
 
-// Whatever their lines hold. Of a growing file, one that is cut short is none yet.
+// Frames are skipped whatever their lines contain. In a growing file a frame cut short does not exist yet.
 TEST_F(TrajectoryXyz, FramesArePassedOver) {
   const std::string head = "\nLattice=\"9 0 0 0 8 0 0 0 1\" pbc=\"F F F\" Time=3 " + std::string(columns) + "\n";
   write_text("2\nof something else\n\n\n0\nof nothing\n1" + head + "1 2 3 4 5 6 7\n2" + head + "1 2 3 4 5 6 1\n");
@@ -317,7 +318,7 @@ TEST_F(TrajectoryXyz, FramesArePassedOver) {
   }
 }
 
-// A reader of a run that goes on sees every frame that was written.
+// A reader of a run that is going on sees every frame that has been written.
 TEST_F(TrajectoryXyz, AFrameIsInTheFileAsSoonAsItIsWritten) {
   XyzWriter writer(path_, {box_with_periodic_x()});
   XyzReader reader(path_, true);
@@ -329,10 +330,10 @@ TEST_F(TrajectoryXyz, AFrameIsInTheFileAsSoonAsItIsWritten) {
     EXPECT_FALSE(reader.read(frame));
   }
   EXPECT_EQ(writer.mark().frames, 3U);
-  EXPECT_EQ(XyzWriter(path_, {box_with_periodic_x()}, writer.mark()).mark().frames, 3U) << "from there on";
+  EXPECT_EQ(XyzWriter(path_, {box_with_periodic_x()}, writer.mark()).mark().frames, 3U) << "it goes on from there";
 }
 
-// Rough disks in a periodic box have both columns: each under its name.
+// Rough disks in a periodic box have both kinds of columns, each under its name.
 TEST_F(TrajectoryXyz, RoundsAndSpinsStandUnderTheirNames) {
   DisplacementTally rounds;
   Disks disks;

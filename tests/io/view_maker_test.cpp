@@ -1,4 +1,4 @@
-// A page's axes, speeds and thinning are those of the whole trajectory.
+// Axes, speeds and thinning of a page follow from the whole trajectory.
 #include "io/view/view_maker.hpp"
 
 #include <gmock/gmock.h>
@@ -46,7 +46,7 @@ std::vector<TrajectoryFrame> two_frames(Vec2 from, Vec2 to, double radius_before
 TEST(ViewMaker, AxesAreThoseOfTheBoxAndTheSmallestDiskOfAllFrames) {
   for (const auto& [before, after] : {std::pair{0.01, 1.0}, std::pair{1.0, 0.01}}) {
     const json head = head_of(made_of(two_frames({1.0, 1.0}, {2.0, 1.0}, before, after), {}));
-    EXPECT_EQ(head["box"]["width"], 20.0) << "that of the trajectory, where the story has none";
+    EXPECT_EQ(head["box"]["width"], 20.0) << "the box of the trajectory, if the story has none";
     EXPECT_EQ(head["box"]["height"], 7.0);
     EXPECT_EQ(head["axes"][0]["bits"], view_axis(20.0, false, 0.01).bits);
     EXPECT_EQ(head["axes"][1]["bits"], view_axis(7.0, true, 0.01).bits);
@@ -60,7 +60,7 @@ TEST(ViewMaker, AxesAreThoseOfTheBoxAndTheSmallestDiskOfAllFrames) {
   EXPECT_EQ(head["axes"][1]["periodic"], false);
 }
 
-// Images above are displaced by 4 at time 1: a disk that comes in at the bottom as much further left has gone 0.3.
+// At time 1 the upper images are displaced by 4: a disk that comes in at the bottom, displaced by -4, has moved by 0.3.
 TEST(ViewMaker, SpeedsAreThoseInTheShearedBox) {
   ViewStory story;
   story.box = Domain{20.0, 7.0};
@@ -74,7 +74,7 @@ std::string ending_of(int n) {
   return n % 10 == 1 ? "st" : n % 10 == 2 ? "nd" : n % 10 == 3 ? "rd" : "th";
 }
 
-// The first frame, and every n-th from there.
+// The first frame, and every n-th after it.
 TEST(ViewMaker, LeavesOutAllBetweenEveryNthFrame) {
   std::vector<TrajectoryFrame> frames(2500);
   for (std::size_t k = 0; k < frames.size(); ++k) {

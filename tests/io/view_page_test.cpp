@@ -1,4 +1,4 @@
-// What a page says of a run: box, walls, sources and tables as the page's own program (viewer/) reads them.
+// The data of a page: box, walls, sources and tables as the program in the page (viewer/) reads them.
 #include "io/view/view_page.hpp"
 
 #include <gmock/gmock.h>
@@ -123,11 +123,11 @@ TEST(ViewPageHead, HasColumnsAndCurves) {
 template <class Value>
 void put(std::string& to, Value value) {
   char bytes[sizeof value];
-  std::memcpy(bytes, &value, sizeof value);  // as on every processor that Carom runs on: the lowest byte first
+  std::memcpy(bytes, &value, sizeof value);  // little-endian, as on every processor that Carom runs on
   to.append(bytes, sizeof value);
 }
 
-// Times, then what differs between disks: viewer/decode.js reads it in this order.
+// Times, then properties that differ between disks: viewer/decode.js reads them in this order.
 
 TEST(ViewPageTable, HasTimesAndWhatDistinguishesDisks) {
   ViewStory story;
@@ -146,7 +146,7 @@ TEST(ViewPageTable, HasTimesAndWhatDistinguishesDisks) {
   EXPECT_EQ(head["grouped"], true);
   EXPECT_EQ(head["disks"], 3);
   EXPECT_EQ(head["frames"], 2);
-  // Alike in all, and no groups.
+  // All disks are alike, and in one group.
   for (TrajectoryFrame& frame : frames) {
     frame.disks.radius.assign(frame.disks.size(), 0.5);
     frame.disks.mass.assign(frame.disks.size(), 3.0);
@@ -161,7 +161,7 @@ TEST(ViewPageTable, HasTimesAndWhatDistinguishesDisks) {
   EXPECT_EQ(head["radius"], 0.5);
   EXPECT_EQ(head["mass"], 3.0);
   EXPECT_EQ(head["grouped"], false);
-  EXPECT_EQ(head["group"], 1) << "which disks that come later may not have";
+  EXPECT_EQ(head["group"], 1) << "disks that come later may have another";
 }
 
 TEST(ViewPageBlocks, AreListedAsTheyAre) {
@@ -189,7 +189,7 @@ TEST(ViewPageBlocks, AreListedAsTheyAre) {
   EXPECT_EQ(head["blocks"][1][1], 6);
 }
 
-// Of a run that goes on: what is behind so many blocks and disks.
+// For a run that is going on: the data after this number of blocks and disks.
 TEST(ViewNews, TellWhatAPageDoesNotHave) {
   ViewStory story;
   story.box = Domain{20.0, 8.0};
@@ -212,7 +212,7 @@ TEST(ViewNews, TellWhatAPageDoesNotHave) {
   }
 }
 
-// 2.5 root mean squares of what is seen, or the fastest if that is slower.
+// 2.5 times the root mean square of the speeds shown, or the fastest if that is slower.
 TEST(ViewSpeeds, EndWhereMostDisksAre) {
   const auto fast_of = [](const std::vector<double>& ways) {
     std::vector<TrajectoryFrame> frames(3);
@@ -225,7 +225,7 @@ TEST(ViewSpeeds, EndWhereMostDisksAre) {
     }
     return encoded(frames).fast_speed();
   };
-  EXPECT_NEAR(fast_of({1.0, 0.0}), 2.0, 1e-3) << "the fastest one";
+  EXPECT_NEAR(fast_of({1.0, 0.0}), 2.0, 1e-3) << "the fastest disk";
   EXPECT_NEAR(fast_of({0.0, 1.0}), 2.0, 1e-3);
   EXPECT_NEAR(fast_of({6.0, 6.0}), 12.0, 1e-3) << "across a periodic side";
   std::vector<double> one_of_many(25, 0.0);

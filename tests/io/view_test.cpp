@@ -1,4 +1,5 @@
-// View files: what is packed comes back within half a step, whatever comes and goes; damage is named with its frames.
+// View files: packed data are read back within half a quantum, whatever disks come and go; damage is reported with its
+// frames.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -21,7 +22,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-// Frames of disks that move, come, go and return, and now and then none at all.
+// Frames of disks that move, come, go and return; some frames have no disks.
 std::vector<TrajectoryFrame> random_frames(unsigned seed, std::size_t count, std::size_t disks, bool periodic) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -69,7 +70,7 @@ ViewEncoder encoded(const std::vector<TrajectoryFrame>& frames, const ViewAxes& 
   return encoder;
 }
 
-// How far apart at most, in quanta; by the nearest image on a periodic axis.
+// The largest distance in quanta; on a periodic axis to the nearest image.
 double apart(const ViewAxis& axis, double x, std::uint32_t number) {
   double d = std::abs(x - axis.decode(number));
   if (axis.periodic) d = std::min(d, axis.length - d);
@@ -124,7 +125,7 @@ TEST(ViewBlocks, NoDisksAreFramesAsWell) {
   expect_round_trip(random_frames(1, 1, 3, true), {view_axis(20.0, true, 1.0), view_axis(7.0, false, 1.0)});
 }
 
-// Other programs write frames whose columns differ.
+// Other programs write frames with differing columns.
 TEST(ViewBlocks, GroupsAreThoseOfTheirDisksWhereFramesLackThem) {
   std::vector<TrajectoryFrame> frames(2);
   append(frames[0].disks, {1.0, 2.0, 0.0, 0.0, 0.5, 1.0, 4});
@@ -135,7 +136,7 @@ TEST(ViewBlocks, GroupsAreThoseOfTheirDisksWhereFramesLackThem) {
   EXPECT_THAT(encoder.disks().group, testing::ElementsAre(0, 3));
 }
 
-// The head of such a page was no JSON, and the page said that its file broke off.
+// The head of such a page was once not valid JSON, and the page reported a truncated file.
 TEST(ViewPage, ASpeedBeyondAllNumbersIsNone) {
   std::vector<TrajectoryFrame> frames(2);
   for (TrajectoryFrame& frame : frames) append(frame.disks, {1.0, 2.0, 0.0, 0.0, 0.5, 1.0, 4});
@@ -155,7 +156,7 @@ TEST(LongViewBlocks, ManyDisksMakeBlocksOfFewFrames) {
   EXPECT_EQ(last.back().place.size(), frames.back().disks.size());
 }
 
-// Blocks that are packed together are those that are packed one by one, also where disks come in the later ones.
+// Blocks packed together have the same bytes as blocks packed one by one, also if later blocks have more disks.
 TEST(ViewBlocks, HowManyAtOnceChangesNoByte) {
   const auto frames = frames_with_more_and_more_disks();
   const ViewAxes axes{view_axis(20.0, true, 0.1), view_axis(7.0, false, 0.1)};
@@ -184,7 +185,7 @@ TEST(ViewAxes, AStepIsASixtyFourthOfTheSmallestRadiusAtMost) {
   EXPECT_EQ(around.encode(-2.5), around.encode(7.5));
 }
 
-// A disk in free flight costs far less than a byte an axis; a still one nearly nothing.
+// A disk in free flight takes far less than a byte for each axis, and one at rest nearly nothing.
 TEST(ViewBlocks, FreeFlightIsShort) {
   std::vector<TrajectoryFrame> frames = random_frames(9, 1, 2000, false);
   std::vector<TrajectoryFrame> flight, still;
@@ -204,8 +205,8 @@ TEST(ViewBlocks, FreeFlightIsShort) {
   EXPECT_LT(cost(flight), 0.6);
 }
 
-// Images above a box that shears are displaced by 4 at time 1. A disk that goes up through the top comes in at the
-// bottom as much further left: it has gone 0.3. A place that is rounded up to the top is that of its image, too.
+// At time 1 the images above a sheared box are displaced by 4. A disk that rises through the top comes in at the
+// bottom, displaced by -4: it has moved by 0.3. A position rounded up to the top is that of its image, too.
 TEST(ViewBlocks, AcrossTheTopOfAShearedBoxPlacesAreThoseOfImages) {
   const ViewAxes axes{view_axis(20.0, true, 0.1), view_axis(7.0, true, 0.1)};
   const Shear shear{4.0 / 7.0, 4.0, 0.0};
@@ -231,7 +232,7 @@ TEST(ViewBlocks, AcrossTheTopOfAShearedBoxPlacesAreThoseOfImages) {
   EXPECT_NEAR(axes[0].decode(there.at[0].at(0)), 10.0, 0.01) << "at the bottom itself";
 }
 
-// One that enters a region again has no place of the frame before that its speed could be told from.
+// A disk that enters a region again has no position in the frame before from which its speed could be computed.
 TEST(ViewBlocks, DisksThatComeBackHaveNoSpeed) {
   const ViewAxes axes{view_axis(20.0, false, 0.1), view_axis(7.0, false, 0.1)};
   const Disk coming{1.0, 1.0, 0.0, 0.0, 0.1, 1.0, 0}, staying{5.0, 5.0, 0.0, 0.0, 0.1, 1.0, 1};
@@ -269,7 +270,7 @@ TEST(ViewBlocks, DamageIsNamedWithItsFrames) {
     ViewBlock flipped = whole;
     flipped.packed[at] = static_cast<char>(flipped.packed[at] ^ 0x10);
     EXPECT_THAT(complaint(flipped), HasSubstr("view.html: frames 65 to 100 are damaged"));
-    flipped.check = crc_of(flipped.packed);  // and with a checksum that belongs to the damage
+    flipped.check = crc_of(flipped.packed);  // with a checksum that matches the damage
     EXPECT_THAT(complaint(flipped), HasSubstr("frames 65 to 100 are damaged"));
     ViewBlock cut = whole;
     cut.packed.resize(at);
@@ -313,12 +314,12 @@ TEST(ViewSeries, ColumnsOfNumbersAndNoMoreRowsThanAskedFor) {
   EXPECT_EQ(series.columns[0].size(), 25U);
   EXPECT_EQ(series.columns[0][1], 4.0);
   EXPECT_EQ(read_view_series("t,kinetic\n0,1\n1,2\n2,3\n", 1, "s").columns[1], (std::vector<double>{1.0, 3.0}))
-      << "two rows at least";
+      << "two rows are needed";
   EXPECT_EQ(read_view_series("t,kinetic\n-,1\n-,2\n", 30, "s").names, (std::vector<std::string>{"t", "kinetic"}))
-      << "time is there whatever it holds";
-  EXPECT_EQ(read_view_series("t,kinetic\n0,1\n1,2\n2", 30, "s").columns[1].size(), 2U) << "a row that breaks off";
+      << "the time is kept whatever it contains";
+  EXPECT_EQ(read_view_series("t,kinetic\n0,1\n1,2\n2", 30, "s").columns[1].size(), 2U) << "a row that is cut off";
   EXPECT_EQ(read_view_series("t,kinetic\n0,1\n1,2.5\n2,3.", 30, "s").columns[1], (std::vector<double>{1.0, 2.5}))
-      << "a number that may lack digits";
+      << "the last number may lack digits";
   EXPECT_EQ(read_view_series("t,kinetic\r\n0,1\r\n1,2\r\n", 30, "s").columns[1], (std::vector<double>{1.0, 2.0}));
   EXPECT_EQ(read_view_series("t,kin", 30, "s").rows, 0U);
   for (const char* const row : {"1", "1,2,3", "1,2,"}) {
@@ -332,7 +333,7 @@ TEST(ViewSeries, ColumnsOfNumbersAndNoMoreRowsThanAskedFor) {
   }
   std::string even = "t\n";
   for (int k = 0; k < 90; ++k) even += std::to_string(k) + "\n";
-  EXPECT_EQ(read_view_series(even, 90, "s").columns[0].size(), 90U) << "all that were asked for";
+  EXPECT_EQ(read_view_series(even, 90, "s").columns[0].size(), 90U) << "as many as were asked for";
 }
 
 TEST(ViewMaker, ThePageIsNoLongerThanAskedForAndSaysWhatItLacks) {
@@ -353,7 +354,7 @@ TEST(ViewMaker, ThePageIsNoLongerThanAskedForAndSaysWhatItLacks) {
     const ViewMade some = made_of(most);
     EXPECT_LE(some.page.size(), most);
     EXPECT_LT(some.frames, frames_before);
-    EXPECT_EQ(some.disks, 60U) << "frames go first";
+    EXPECT_EQ(some.disks, 60U) << "frames are dropped first";
     ASSERT_EQ(some.left_out.size(), 1U);
     EXPECT_THAT(some.left_out[0], testing::AllOf(HasSubstr("frame of 1000"), HasSubstr("every")));
     EXPECT_THAT(some.page, HasSubstr(some.left_out[0]));
@@ -366,7 +367,7 @@ TEST(ViewMaker, ThePageIsNoLongerThanAskedForAndSaysWhatItLacks) {
   EXPECT_THROW(made_of(1000), InputError);
 }
 
-// Later blocks hold more disks, so that what the first ones tell of all depends on how many of them are asked.
+// Later blocks hold more disks, so an estimate from the first blocks would depend on how many of them are asked.
 TEST(ViewMaker, WhatIsLeftOutDoesNotDependOnTheThreads) {
   const auto frames = frames_with_more_and_more_disks();
   const auto made_by = [&](std::size_t threads, std::size_t most) {
@@ -384,7 +385,7 @@ TEST(ViewMaker, WhatIsLeftOutDoesNotDependOnTheThreads) {
   }
 }
 
-// A group has one colour in the movie of a run and in its page.
+// A group has the same colour in a run's movie and in its page.
 TEST(ViewMaker, GroupsHaveTheColoursOfMovies) {
   const auto frames = random_frames(12, 2, 4, false);
   const ViewMade made = make_view([&] { return std::make_unique<test::ReplayedTrajectory>(frames); }, "test", {}, {});

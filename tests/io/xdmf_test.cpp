@@ -1,4 +1,4 @@
-// trajectory.xdmf: which rows of trajectory.h5 are a frame.
+// trajectory.xdmf: which row of trajectory.h5 belongs to which frame.
 #include "io/trajectory/xdmf.hpp"
 
 #include <gmock/gmock.h>
@@ -20,7 +20,7 @@ class Xdmf : public ::testing::Test {
   const test::TestFolder folder_{"xdmf"};
 };
 
-// Begin, stride and length of the row, then the whole dataset it is in.
+// Start, stride and length of the row, and then the size of its dataset.
 TEST_F(Xdmf, AFrameIsItsRow) {
   const std::string text = written({{0.0, 0.25, 0.1}, 40, 8, 2, false});
   EXPECT_THAT(text, HasSubstr("<Time Value=\"0\"/>\n<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"40\"/>\n"
@@ -46,7 +46,7 @@ TEST_F(Xdmf, OfSinglePrecisionAndThreeDimensions) {
   EXPECT_THAT(text, HasSubstr("Precision=\"8\" Dimensions=\"40\" Format=\"HDF\">trajectory.h5:/particles/disks/mass<"));
 }
 
-// In a region places change hands: radius and mass are those of the frame.
+// In a region rows change their disks: radius and mass are those of the frame.
 TEST_F(Xdmf, SizesOfARegionAreThoseOfTheFrame) {
   const std::string text = written({{0.0, 0.25}, 40, 8, 2, true});
   EXPECT_THAT(text, HasSubstr("<DataItem Dimensions=\"3 2\" Format=\"XML\">1 0 1 1 1 40</DataItem><DataItem "
