@@ -1,4 +1,4 @@
-// Runs with [analysis]: analysis.h5 as another reader sees it, plots, what it costs the physics (nothing), resuming.
+// Runs with [analysis]: analysis.h5 as another reader sees it, plots, no effect on the physics, and resuming.
 #include "tests/support/program_support.hpp"
 #include "tests/support/scene_support.hpp"
 
@@ -29,7 +29,7 @@ const std::vector<std::string> plots{"pair_correlation.svg",
 
 class AnalysisRun : public test::ProgramTest {
  protected:
-  // Samples of the file, as h5py reads it.
+  // Samples in the file, read by h5py.
   Outcome read(const std::string& folder, const std::string& series) const {
     return shell("/usr/bin/python3 " CAROM_SOURCE_DIR "/tests/io/read_analysis.py " + folder + "/analysis.h5 '" +
                  series + "'");
@@ -73,11 +73,11 @@ TEST_F(LongAnalysisRun, ResumedItGivesTheSameFiles) {
     for (const std::string& plot : plots)
       EXPECT_TRUE(text_of(at("whole") / plot) == text_of(at("parts") / plot)) << plot;
     EXPECT_TRUE(fs::exists(at("parts/structure_factor.svg")));
-    EXPECT_EQ(read("parts", "").out, "34\n") << "from 1.05 on, and the end";
+    EXPECT_EQ(read("parts", "").out, "34\n") << "samples from 1.05 on, and at the end";
   }
 }
 
-// All of it in a shear flow, and resumed.
+// All quantities in a shear flow, with resuming.
 TEST_F(LongAnalysisRun, InAShearFlowToo) {
   for (const std::string method : {"pairwise", "exact"}) {
     write("flow.toml",
@@ -102,7 +102,7 @@ TEST_F(LongAnalysisRun, InAShearFlowToo) {
   }
 }
 
-// Disks that come later are followed from no sample on; a number for each time would be none.
+// Disks that come after the first sample are not followed, so a number for each time would mean nothing.
 TEST_F(AnalysisRun, AFirstSampleWithoutDisksIsWarnedOf) {
   write("source.toml",
         "[box]\nwidth = 10.0\nheight = 10.0\n[[sources]]\nside = \"left\"\nrate = 5.0\nradius = 0.1\nmass = 1.0\n"

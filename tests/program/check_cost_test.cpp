@@ -1,4 +1,5 @@
-// carom check predicts what a run costs: the steps after the first, and the memory of ffmpeg beside its own.
+// carom check predicts the cost of a run: time for the steps after the first, and the memory of ffmpeg in addition to
+// its own.
 #include <cmath>
 
 #include "app/run/check_foresight.hpp"
@@ -11,7 +12,8 @@ using Json = nlohmann::ordered_json;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// A first window of a second to t = 0.03, two more of half a second in all to 0.13: 5 s a unit of time, not 33.
+// A first window to t = 0.03 takes a second, two more to 0.13 take half a second together: 5 s for each unit of time,
+// not 33.
 TEST(StepTrial, TheFirstStepIsPaidOnce) {
   const StepTrial trial{1.0, 0.03, 1.5, 0.13};
   EXPECT_NEAR(trial.seconds_to(1.03), 1.0 + 5.0, 1e-12);
@@ -24,25 +26,25 @@ TEST(StepTrial, OneStepAloneStandsForAll) {
   EXPECT_EQ(StepTrial{}.seconds_to(0.0), 0.0);
 }
 
-// Haff's law: collisions of a gas that cools grow as ln(1 + t / tau), so that ten times the time is not ten times the
-// cost. A gas in equilibrium scatters.
+// Haff's law: the number of collisions of a cooling gas grows as ln(1 + t / tau), so ten times the time does not cost
+// ten times as much. In equilibrium the rate only fluctuates.
 TEST(StepTrial, AGasThatCoolsCollidesEverLess) {
   const auto haff = [](double t) { return static_cast<Count>(1e5 * std::log1p(t)); };
   const double slowing = slowing_of_collisions(0.5, haff(0.5), 1.0, haff(1.0));
   EXPECT_NEAR(slowing, 1.0, 0.01);
   const StepTrial trial{0.1, 0.1, 0.3, 1.0, slowing};
   const double real = 0.3 + 0.2 * (std::log1p(1e4) - std::log1p(1.0)) / (std::log1p(1.0) - std::log1p(0.1));
-  EXPECT_NEAR(trial.seconds_to(1e4), real, 0.02 * real) << "where at the pace of the trial it would be 2200";
+  EXPECT_NEAR(trial.seconds_to(1e4), real, 0.02 * real) << "at the pace of the trial it would be 2200";
   EXPECT_EQ(slowing_of_collisions(50.0, 50'000, 100.0, 99'500), 0.0);
-  EXPECT_EQ(slowing_of_collisions(50.0, 50'000, 100.0, 150'000), 0.0) << "more frequent";
-  EXPECT_EQ(slowing_of_collisions(50.0, 100, 100.0, 110), 0.0) << "too few";
-  EXPECT_GT(slowing_of_collisions(50.0, 50'000, 100.0, 50'000), 1e3) << "all are gone";
+  EXPECT_EQ(slowing_of_collisions(50.0, 50'000, 100.0, 150'000), 0.0) << "collisions become more frequent";
+  EXPECT_EQ(slowing_of_collisions(50.0, 100, 100.0, 110), 0.0) << "too few collisions";
+  EXPECT_GT(slowing_of_collisions(50.0, 50'000, 100.0, 50'000), 1e3) << "there are no more collisions";
 }
 
 using CheckCost = test::CommandTest;
 using LongCheckCost = CheckCost;
 
-// 60 MB and 70 bytes a pixel; what the pictures take in the run itself comes on top.
+// 60 MB and 70 bytes for each pixel, in addition to the memory of the pictures in the run itself.
 TEST_F(LongCheckCost, AMovieNeedsFfmpegsMemoryToo) {
   const auto bytes = [&](const std::string& set) {
     return Json::parse(carom("check small.toml --json" + set).out)["memory_bytes"].get<double>();
@@ -53,8 +55,8 @@ TEST_F(LongCheckCost, AMovieNeedsFfmpegsMemoryToo) {
   EXPECT_THAT(carom("check small.toml").out, Not(HasSubstr("ffmpeg")));
 }
 
-// Of 2000 disks from a source in an empty box, some of which the trial sees: 36 bytes each, and not each of these times
-// the number that comes. The one before is that of the start.
+// A source emits 2000 disks into an empty box, and the trial sees some of them: the checkpoint has 36 bytes for each
+// disk, once. The previous checkpoint is that of the start.
 TEST_F(CheckCost, ACheckpointHasTheDisksOfSourcesOnce) {
   write(
       "source.toml",
@@ -66,7 +68,7 @@ TEST_F(CheckCost, ACheckpointHasTheDisksOfSourcesOnce) {
   EXPECT_LT(files["checkpoint.previous.carom"].get<double>(), 4000.0);
 }
 
-// Its folder for temporary files, a movie half made in it, stayed for ever.
+// Once its folder for temporary files, with an unfinished movie, was never removed.
 TEST_F(LongCheckCost, ACheckThatIsStoppedLeavesNothingBehind) {
   const test::Outcome o = shell(
       "mkdir tmp && export TMPDIR=$PWD/tmp && $C check small.toml --set output.movie=true --set output.every=0.01 & "
@@ -87,8 +89,8 @@ TEST_F(LongCheckCost, AnAnalysisHasATableForEachQuantity) {
   EXPECT_LT(files["analysis.h5"].get<double>(), 1.7 * real);
 }
 
-// Two panels of curves or, of more than ten disks, of bands; a curve of more than 4000 frames has fewer points. A
-// potential energy is one curve more.
+// Two panels with curves, or with bands for more than ten disks; a curve of more than 4000 frames has fewer points; the
+// potential energy is one more curve.
 TEST_F(LongCheckCost, PlotsAreAsLargeAsTheirCurves) {
   for (const std::string settings :
        {"--set output.every=0.1", "--set output.every=0.002", "--set output.every=0.0002 --set disks.0.radius=0.1",
@@ -104,7 +106,7 @@ TEST_F(LongCheckCost, PlotsAreAsLargeAsTheirCurves) {
   }
 }
 
-// With the TC model a disk at rest collides ten times in a contact time, which the trial of a fall does not see.
+// In the TC model a disk at rest makes ten collisions in a contact time, which the trial does not see while disks fall.
 TEST_F(CheckCost, APileUnderTheTcModelIsDear) {
   const std::string fall =
       "check small.toml --method exact --t-end 1 --set physics.gravity=1.0 --set physics.restitution=0.8 --set ";

@@ -1,5 +1,5 @@
-// carom check says how fast walls move, and how their acceleration compares with gravity: what lies on a floor that
-// vibrates with less than gravity's never leaves it.
+// carom check gives the speed of moving walls, and compares their acceleration with gravity: if a floor's acceleration
+// is below that of gravity, disks at rest on it never leave it.
 #include <fmt/format.h>
 
 #include "tests/support/command_support.hpp"
@@ -21,7 +21,8 @@ class CheckOfMotion : public test::CommandTest {
   }
 };
 
-// Pieces of a parabola of height A over half a period h: 4 A / h at their ends, 8 A / h^2 all the time.
+// Pieces of parabolas of height A over half a period h: speed 4 A / h at their ends, and acceleration 8 A / h^2 at any
+// time.
 TEST_F(CheckOfMotion, AFloorThatVibratesIsHeldAgainstGravity) {
   const std::string floor = "bottom = { motion = { vibrate = [0.0, 0.5], period = 2.0 } }\n";
   EXPECT_THAT(
@@ -31,7 +32,7 @@ TEST_F(CheckOfMotion, AFloorThatVibratesIsHeldAgainstGravity) {
   EXPECT_THAT(report(floor, ""), HasSubstr("the bottom wall moves at speeds up to 2, accelerations up to 4\n"));
 }
 
-// A sine: A w and A w^2, w = 2 pi / period.
+// A sine: A w and A w^2, with w = 2 pi / period.
 TEST_F(CheckOfMotion, OfInnerWallsTheLargestCounts) {
   const std::string walls =
       "[[walls]]\nfrom = [1, 2]\nto = [9, 2]\nmotion = { vibrate = [0.3, 0.4], period = 2.0, shape = \"sine\" }\n"

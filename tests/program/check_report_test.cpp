@@ -1,4 +1,4 @@
-// What carom check says of a scene's physics, of the steps it takes, and of files that it only guesses.
+// The report of carom check: the physics of a scene, its steps, and files whose sizes are only guessed.
 #include <cmath>
 #include <string>
 
@@ -65,7 +65,7 @@ TEST_F(CheckReport, ThePhysicsIsInWords) {
               HasSubstr("; the TC model, contact time 1e-06\n"));
 }
 
-// What a run counts as steps are more where windows of exact end before a draw, or frames of rollback are cut short.
+// A run counts more steps than dt gives if windows of exact end before a draw, or if frames of rollback are cut short.
 TEST_F(CheckReport, StepsAreWhatDtTells) {
   EXPECT_THAT(said(""), HasSubstr("  method      pairwise, dt = 0.01, 1000 steps to t = 10\n"));
   EXPECT_THAT(said("--method rollback"), HasSubstr("rollback, dt = 0.01, 1000 steps or more to t = 10\n"));
@@ -106,7 +106,7 @@ TEST_F(CheckReport, WhatARunWouldWarnOfIsSaid) {
               HasSubstr("carom: warning: two.toml: physics.collapse"));
 }
 
-// Of n draws the fastest has m v^2 / 2 = T ln n: mass 4, temperature 2, and nine disks before the end.
+// The fastest of n draws has m v^2 / 2 = T ln n: here mass 4, temperature 2, and nine disks before the end.
 TEST_F(CheckReport, HeavyDisksOfAHotSourceAreSlow) {
   write("source.toml", R"([box]
 width = 100.0
@@ -125,7 +125,7 @@ t_end = 10.0
   EXPECT_NEAR(json("", "source.toml")["safe_dt"].get<double>(), 0.125 / std::sqrt(std::log(9.0)), 1e-9);
 }
 
-// A wall that is not level is another one as it moves across the box.
+// A wall that is not horizontal sweeps over new places when it moves along x.
 TEST_F(CheckReport, AWallThatMovesAlongItselfDoesNothing) {
   const std::string wall =
       "--set physics.gravity=0.0 --set box.left='\"periodic\"' --set box.right='\"periodic\"' --set "
@@ -137,7 +137,7 @@ TEST_F(CheckReport, AWallThatMovesAlongItselfDoesNothing) {
   EXPECT_THAT(with_end_at("6"), Not(HasSubstr("moves along itself")));
 }
 
-// exact looks ten spacings and more beyond a slab: nothing of it is left where slabs are as thin as that.
+// exact needs to see ten spacings and more beyond a slab, which is impossible if slabs are as thin as that.
 TEST_F(CheckReport, ThatOneRankRunsAllDisksIsTold) {
   const auto troubles = [&](const char* height) {
     return json(std::string("--ranks 2 --method exact --t-end 0.2 --set physics.gravity=0 --set box.width=40 ") +
@@ -151,7 +151,7 @@ TEST_F(CheckReport, ThatOneRankRunsAllDisksIsTold) {
   EXPECT_EQ(troubles("400"), Json::array());
 }
 
-// A trial has no more than three ranks.
+// A trial uses at most three ranks.
 TEST_F(CheckReport, OnHowManyRanksItTriedIsTold) {
   const std::string tall = " --method pairwise --set physics.gravity=0 --set box.height=80";
   const Json two = json("--ranks 2" + tall)["ranks"], five = json("--ranks 5" + tall)["ranks"];
@@ -162,7 +162,7 @@ TEST_F(CheckReport, OnHowManyRanksItTriedIsTold) {
   EXPECT_THAT(said("--ranks 5" + tall), HasSubstr("a step, from a trial on 3\n"));
 }
 
-// Neither ffmpeg's memory nor plots that nobody draws are counted.
+// Without ffmpeg and gnuplot the memory of ffmpeg and the plots must not be counted.
 TEST_F(CheckReport, WhatARunLacksWithoutFfmpegAndGnuplot) {
   const Json j = json("--set output.movie=true --set output.plots='[\"energy\"]'", "two.toml", "PATH=/nonexistent ");
   EXPECT_EQ(j["troubles"], (Json{"ffmpeg is not installed: the movie becomes frames/frame_000001.png and so on",
@@ -172,7 +172,7 @@ TEST_F(CheckReport, WhatARunLacksWithoutFfmpegAndGnuplot) {
   EXPECT_EQ(j["cost_parts_s"]["plots"], 0.0);
 }
 
-// Where nothing can be written on trial.
+// Sizes are guessed if no file can be written for the trial.
 TEST_F(CheckReport, FilesAreGuessed) {
   const std::string all = "--set output.series=true --set output.movie=true --set output.trajectory='\"xyz\"'";
   const Json light = json(all + " --set output.select='\"light\"'", "two.toml", "TMPDIR=/nonexistent ")["files_bytes"];
@@ -196,10 +196,10 @@ TEST_F(CheckReport, EveryPartOfTheCostIsThere) {
   const Json j = json(
       "--set output.view=true --set output.trajectory='\"h5md\"' --set output.every=1e-7 --method exact "
       "--set 'analysis.what=[\"speeds\"]'");
-  EXPECT_EQ(j["files_bytes"]["view.html"], 64e6) << "which it is not to exceed";
+  EXPECT_EQ(j["files_bytes"]["view.html"], 64e6) << "the page must not exceed this";
   EXPECT_GT(j["cost_parts_s"]["start"], 0.0);
   EXPECT_GT(j["cost_parts_s"]["analysis"], 0.0);
-  EXPECT_GT(j["memory_bytes"], 4e6) << "no process has less";
+  EXPECT_GT(j["memory_bytes"], 4e6) << "no process takes less";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// carom check predicts: collapse, speeds after the fall, what sources add, the size of every file.
+// The predictions of carom check: collapse, speeds after a fall, disks from sources, and the size of every file.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -35,7 +35,7 @@ class Check : public test::CommandTest {
 };
 using LongCheck = Check;
 
-// A disk at rest, radius 0.5, that falls by 8 with g = 1: after 4 units of time it lands with speed 4.
+// A disk of radius 0.5 at rest falls by 8 with g = 1: it lands at t = 4 with speed 4.
 constexpr const char* falling_disk = R"([box]
 width = 10.0
 height = 10.0
@@ -56,14 +56,14 @@ TEST_F(LongCheck, CollapseOnAFloorIsPredictedWithItsTime) {
   write("fall.toml", falling_disk);
   const Json j = check("fall.toml");
   EXPECT_EQ(j["collapse_expected"], true);
-  // Landing after 4, and flights of 4, 2, 1, ... from then on: at rest at t = 12.
+  // It lands at t = 4, and its flights then take 4, 2, 1, ...: it is at rest at t = 12.
   EXPECT_THAT(troubles(j), HasSubstr("inelastic collapse is to be expected from about t = 12 on"));
   EXPECT_THAT(carom("check fall.toml").out, HasSubstr("--method pairwise, or give physics.collapse"));
   const Outcome run = carom("run fall.toml");
   EXPECT_EQ(run.status, 3);
   EXPECT_THAT(run.err, HasSubstr("inelastic collapse at t = 1"));
 
-  EXPECT_EQ(check("fall.toml --t-end 10")["collapse_expected"], false) << "before it is at rest";
+  EXPECT_EQ(check("fall.toml --t-end 10")["collapse_expected"], false) << "the run ends before the disk is at rest";
   EXPECT_EQ(check("fall.toml --set box.wall_restitution=1.0")["collapse_expected"], false);
   EXPECT_EQ(check("fall.toml --set box.bottom='\"sink\"'")["collapse_expected"], false);
   EXPECT_EQ(check("fall.toml --method pairwise --dt 0.01")["collapse_expected"], false);
@@ -71,7 +71,7 @@ TEST_F(LongCheck, CollapseOnAFloorIsPredictedWithItsTime) {
   EXPECT_EQ(check("fall.toml" + remedy)["collapse_expected"], false);
 }
 
-// Frames between steps are none: a run has one a step then.
+// If frames are more frequent than steps, a run has one frame for each step.
 TEST_F(Check, NoMoreFramesThanStepsArePredicted) {
   write("fall.toml", falling_disk);
   const std::string often =
@@ -90,7 +90,7 @@ TEST_F(Check, TheSafeStepIsThatAfterTheFall) {
   write("fall.toml", falling_disk);
   const Json j = check("fall.toml --method pairwise --dt 0.05 --set box.wall_restitution=1.0");
   EXPECT_NEAR(j["landing_speed"].get<double>(), 4.0, 1e-12);
-  // dt with 4 dt + dt^2 = half a radius, 0.25.
+  // dt follows from 4 dt + dt^2 = 0.25, half a radius.
   EXPECT_NEAR(j["safe_dt"].get<double>(), std::sqrt(4.25) - 2.0, 1e-9);
   EXPECT_THAT(j["troubles"], IsEmpty());
   const std::string longer = "fall.toml --method pairwise --dt 0.1";
@@ -113,8 +113,8 @@ TEST_F(Check, AnyStepIsSafeAtTheStartForDisksAtRest) {
               HasSubstr("12.5 or less: any at the speeds of the start, 12.5 at those that walls or a thermostat give"));
 }
 
-// The velocities of the start are forgotten, and exact splits no step: check warns where the run does, of sqrt(2 D dt)
-// = half a radius; pairwise has three of these in half a radius.
+// In Brownian motion the velocities of the start are not used, and exact splits no step: check warns of the same dt as
+// the run, sqrt(2 D dt) = half a radius; for pairwise three times the left side must be below half a radius.
 TEST_F(Check, ABrownianStepIsNoFasterForTheVelocitiesOfTheStart) {
   const std::string brownian = "small.toml --set physics.diffusion=0.5 --set disks.0.radius=0.4 ";
   const std::string fast = "--set disks.0.velocities='{ uniform = 50.0 }' ";
@@ -129,7 +129,8 @@ TEST_F(Check, ABrownianStepIsNoFasterForTheVelocitiesOfTheStart) {
   }
 }
 
-// Nothing moves at the start, but walls and baths will see to that: 0.25, half a radius, over what they give.
+// Nothing moves at the start, but walls and thermostats will make disks move: the safe step is 0.25, half a radius,
+// over the speed that they give.
 TEST_F(LongCheck, WallsAndBathsAskForShorterSteps) {
   write("rest.toml", falling_disk);
   const std::string rest =
@@ -151,7 +152,7 @@ TEST_F(LongCheck, WallsAndBathsAskForShorterSteps) {
 
 TEST_F(Check, APileAsksForAShorterStepThanItsSpeedsDo) {
   write("fall.toml", falling_disk);
-  // It lies on the floor already: the largest overlap of a pile, 2 %, is reached with dt = sqrt(0.02 r / g).
+  // The disk lies on the floor already: dt = sqrt(0.02 r / g) gives the largest overlap of a pile, 2 %.
   const Json j = check("fall.toml --method pairwise --dt 0.2 --set disks.0.positions='[[5.0, 0.5]]'");
   EXPECT_NEAR(j["safe_dt"].get<double>(), 0.1, 1e-9);
   EXPECT_THAT(troubles(j), HasSubstr("in a pile a disk falls by g dt^2 before it is held"));
@@ -176,10 +177,10 @@ t_end = 1000.0
 )");
   const Json j = check("source.toml");
   EXPECT_EQ(j["particles"], 0);
-  EXPECT_EQ(j["particles_at_end"], 49999) << "none comes at the end itself";
+  EXPECT_EQ(j["particles_at_end"], 49999) << "no disk comes exactly at the end";
   EXPECT_NEAR(j["safe_dt"].get<double>(), 0.125 / (20.0 * std::sqrt(2.0)), 1e-9);
   EXPECT_THAT(troubles(j), HasSubstr("the sources would fill the box to a packing fraction of 0.98"));
-  EXPECT_GT(j["cost_parts_s"]["steps"].get<double>(), 10.0) << "25000 disks in the mean, a million steps";
+  EXPECT_GT(j["cost_parts_s"]["steps"].get<double>(), 10.0) << "25000 disks on average, a million steps";
   const Json few = check("source.toml --set sources.0.limit=100");
   EXPECT_TRUE(few["particles_at_end"] == 100 && few["troubles"].empty()) << few;
   EXPECT_GT(j["memory_bytes"], few["memory_bytes"].get<double>() + 1e6);
@@ -187,7 +188,7 @@ t_end = 1000.0
   EXPECT_THAT(flow, testing::ContainsRegex("emit up to 49999 at t = 1000(.|\n)*cost .*; less as sinks take disks"));
 }
 
-// Room for one disk: what the trial sees, as it comes to the end, is what the run says there.
+// There is room for one disk. The trial, which comes to the end here, must report what the run reports.
 TEST_F(Check, SourcesWithoutRoomAreSeenInTheTrial) {
   const std::string source = "[[sources]]\nregion = [4.9, 4.9, 5.1, 5.1]\nrate = 20\nradius = 0.5\nmass = 1\n";
   write("blocked.toml", test::replaced(test::small_scene, "[run]", source + "[run]"));
@@ -198,7 +199,7 @@ TEST_F(Check, SourcesWithoutRoomAreSeenInTheTrial) {
   EXPECT_THAT(check("blocked.toml --set sources.0.region='[1, 1, 9, 9]'")["troubles"], IsEmpty());
 }
 
-// Where the first and only moment is that of the start there is no step.
+// If the only moment is that of the start there is no step.
 TEST_F(Check, NoTimeTakesNoSteps) {
   EXPECT_EQ(check("small.toml --t-end 0")["cost_parts_s"]["steps"], 0.0);
   EXPECT_THAT(carom("check small.toml --t-end 0").out, Not(HasSubstr("years")));
@@ -211,7 +212,7 @@ TEST_F(LongCheck, EveryFileIsPredictedWithItsSize) {
   for (const char* const format : {"xyz", "h5md"}) {
     const std::string scene = wants + " --set output.trajectory='\"" + format + "\"'";
     const Json files = check(scene)["files_bytes"];
-    EXPECT_FALSE(files.contains("lock")) << "which a run takes away";
+    EXPECT_FALSE(files.contains("lock")) << "a run removes its lock";
     ASSERT_EQ(carom("run --quiet --force -o out " + scene).status, 0);
     for (const std::string& file : files_in("out")) {
       const bool small = file == "scene.toml" || file == "summary.json" || file == "trajectory.xdmf";
@@ -232,12 +233,12 @@ TEST_F(Check, TheBoxIsThatOfTheScene) {
   EXPECT_NEAR(j["packing_fraction"].get<double>(), 5.0 * std::numbers::pi * 0.25 / 200.0, 1e-12);
 }
 
-// The trial takes a fifth of a second, and 10^8 steps take at least ten of them.
+// The trial takes a fifth of a second, and 10^8 steps take at least ten.
 TEST_F(LongCheck, TheCostIsThatOfTheWholeRun) {
   EXPECT_GT(check("small.toml --t-end 1e6 --set output.every=1e5")["cost_parts_s"]["steps"].get<double>(), 2.0);
 }
 
-// The method that the text recommends is the one that JSON names: of those that can, the one with the least work.
+// The method recommended in the text is that in the JSON: the cheapest of the possible methods.
 TEST_F(Check, AnAccuracyHasOneMethod) {
   for (const std::string accuracy : {"1e-1", "1e-3"}) {
     const std::string options = "small.toml --t-end 0.1 --accuracy " + accuracy;
@@ -255,7 +256,7 @@ TEST_F(Check, AnAccuracyHasOneMethod) {
   }
 }
 
-// Disks that fly out of the box: most frames have hardly any.
+// Disks fly out of the box, so most frames have hardly any.
 TEST_F(Check, WhatSinksTakeIsLeftOutOfFiles) {
   std::string sinks;
   for (const char* const side : {"left", "right", "bottom", "top"}) {
@@ -288,7 +289,7 @@ TEST_F(LongCheck, ItsRehearsalLeavesNothingBehindAndIsNotNeeded) {
   EXPECT_THAT(files_in(""), Not(::testing::Contains("out")));
 }
 
-// Where nothing can be written, sizes are guessed: by the disks that are shown.
+// If nothing can be written sizes are guessed from the number of disks shown.
 TEST_F(Check, AGuessGoesByTheDisksShown) {
   const auto guess = [&](const std::string& select) {
     const Outcome o = shell("TMPDIR=/nonexistent $C check small.toml --t-end 0.1 --json " + select);
@@ -298,14 +299,14 @@ TEST_F(Check, AGuessGoesByTheDisksShown) {
   EXPECT_EQ(guess("--set 'output.select=\"every 5th\"'"), guess("") / 5.0);
 }
 
-// At 0.5, 0.6, ... 1.
+// Samples are at 0.5, 0.6, ... 1.
 TEST_F(Check, SamplesAreCountedFromTheirStart) {
   const Outcome o =
       carom("check small.toml --set 'analysis.what=[\"speeds\"]' --set analysis.every=0.1 --set analysis.start=0.5");
   EXPECT_THAT(o.out, HasSubstr("11 frames, 6 samples: "));
 }
 
-// 20 x 10 with no disk at the start.
+// A box of 20 x 10 without disks at the start.
 Scene empty_box(const std::string& box, const std::string& more) {
   return parse_scene("[box]\nwidth = 20\nheight = 10\n" + box + more +
                          "[[disks]]\ncount = 0\npositions = \"random\"\nradius = 0.5\nmass = 1\n"
@@ -313,8 +314,8 @@ Scene empty_box(const std::string& box, const std::string& more) {
                      "empty", "");
 }
 
-// Sources fill a box evenly, from disk 1 to 19, as the 20th is due at the end: half of them in the mean, or a little
-// more; with a limit, after a quarter of the run, 7 of 8.
+// Sources fill a box at a constant rate with disks 1 to 19, as the 20th is due at the end: on average half of them are
+// there, or a little more. With a limit that is reached after a quarter of the run the mean is 7/8 of it.
 TEST(Foresight, ThePopulationRisesEvenly) {
   const std::string source = "[[sources]]\nside = \"top\"\nrate = 2\nradius = 0.5\nmass = 1\n";
   const Population all = foresee_population(empty_box("", source), {});
@@ -325,7 +326,7 @@ TEST(Foresight, ThePopulationRisesEvenly) {
   EXPECT_DOUBLE_EQ(limited.end, 5.0);
 }
 
-// v^2 = 2 g h from the side that disks come through, h = 9.5 for their edge.
+// v^2 = 2 g h from the side through which disks come, with h = 9.5 for their edge.
 TEST(Foresight, DisksOfASourceFallFromItsSide) {
   const auto landing = [](const char* gravity, const char* side) {
     const Scene scene = empty_box("", std::string("[physics]\ngravity = ") + gravity + "\n[[sources]]\nside = \"" +
@@ -338,7 +339,7 @@ TEST(Foresight, DisksOfASourceFallFromItsSide) {
   EXPECT_DOUBLE_EQ(landing("[0, 1]", "top"), 0.0);
 }
 
-// The corner of a source's region from which gravity takes a disk furthest, to the edge of a disk of radius 0.5.
+// Disks fall furthest from one corner of a source's region, to the contact of a disk of radius 0.5.
 TEST(Foresight, DisksOfASourceFallFromTheFarCornerOfItsRegion) {
   const auto way = [](const char* gravity, const char* where) {
     const Scene scene = empty_box("", std::string("[physics]\ngravity = ") + gravity + "\n[[sources]]\n" + where +
@@ -351,12 +352,13 @@ TEST(Foresight, DisksOfASourceFallFromTheFarCornerOfItsRegion) {
   EXPECT_NEAR(way("[1, 0]", region), 17.5, 1e-12);
   EXPECT_NEAR(way("[-1, 0]", region), 7.5, 1e-12);
   EXPECT_NEAR(way("[1, 0]", "side = \"left\""), 19.5, 1e-12);
-  EXPECT_NEAR(way("[0, -1]", "side = \"left\""), 9.5, 1e-12) << "from its upper end";
+  EXPECT_NEAR(way("[0, -1]", "side = \"left\""), 9.5, 1e-12) << "from the upper end of the side";
   EXPECT_NEAR(way("[-1, 0]", "side = \"left\""), 0.0, 1e-12);
   EXPECT_NEAR(way("[0, -1]", "side = \"right\""), 9.5, 1e-12);
 }
 
-// Its flights become shorter by the restitution each: e / (1 - e) times as long together as one from the first landing.
+// Each flight is shorter than the one before by the factor of the restitution: together they take e / (1 - e) times a
+// flight with the speed of the first landing.
 TEST(Foresight, ADiskRestsAfterTheSumOfItsFlights) {
   const auto rest = [](const std::string& velocity, const std::string& gravity, double e) {
     const Scene scene = parse_scene(
@@ -368,13 +370,13 @@ TEST(Foresight, ADiskRestsAfterTheSumOfItsFlights) {
   };
   EXPECT_NEAR(rest("[0, 0]", "1", 0.5), 4.0 + 8.0, 1e-12);
   EXPECT_NEAR(rest("[0, 0]", "1", 0.25), 4.0 + 8.0 / 3.0, 1e-12);
-  EXPECT_NEAR(rest("[7, 3]", "1", 0.5), (3.0 + 5.0) + 10.0, 1e-12) << "up first, and down from there";
+  EXPECT_NEAR(rest("[7, 3]", "1", 0.5), (3.0 + 5.0) + 10.0, 1e-12) << "first up, and then down from there";
   EXPECT_NEAR(rest("[7, -3]", "1", 0.5), (-3.0 + 5.0) + 10.0, 1e-12);
-  EXPECT_NEAR(rest("[0, 0]", "[1, 0]", 0.5), 3.0 + 6.0, 1e-12) << "4.5 to the right wall";
-  EXPECT_NEAR(rest("[0, 0]", "[0, 2]", 0.5), 1.0 + 2.0, 1e-12) << "1 to the ceiling";
+  EXPECT_NEAR(rest("[0, 0]", "[1, 0]", 0.5), 3.0 + 6.0, 1e-12) << "a fall of 4.5 to the right wall";
+  EXPECT_NEAR(rest("[0, 0]", "[0, 2]", 0.5), 1.0 + 2.0, 1e-12) << "a fall of 1 to the ceiling";
 }
 
-// The first disk comes at 1 / rate, and falls from the edge of the box.
+// The first disk comes at 1 / rate and falls from the edge of the box.
 TEST(Foresight, ADiskOfASourceRestsAfterItHasCome) {
   const Scene scene = parse_scene(
       "[box]\nwidth = 20\nheight = 10\nwall_restitution = 0.5\n[physics]\ngravity = 1\n[[sources]]\nside = \"top\"\n"
@@ -383,7 +385,7 @@ TEST(Foresight, ADiskOfASourceRestsAfterItHasCome) {
   EXPECT_NEAR(foresee_collapse(scene, {}).from.value_or(0.0), 0.5 + std::sqrt(20.0) + 2.0 * std::sqrt(20.0), 1e-12);
 }
 
-// Nothing stops a fall through periodic sides.
+// Nothing stops a fall along periodic sides.
 TEST(Foresight, AFallWithoutAFloorGoesOnToTheEnd) {
   const Scene scene =
       empty_box("bottom = \"periodic\"\ntop = \"periodic\"\n",
@@ -396,7 +398,7 @@ TEST(Foresight, TheFillIsTheAreaOfAllDisks) {
   EXPECT_NEAR(foresee_population(empty_box("", source), {}).fill, 19.0 * std::numbers::pi * 0.25 / 200.0, 1e-12);
 }
 
-// Sources that would fill the box are no trouble where a sink takes disks away.
+// Sources that would fill the box cause no warning if a sink takes disks.
 TEST(Foresight, ASinkMakesRoomForSources) {
   const std::string source = "[[sources]]\nside = \"top\"\nrate = 40\nradius = 0.5\nmass = 1\n";
   const auto troubles = [&](const std::string& box) {

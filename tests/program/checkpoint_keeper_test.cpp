@@ -1,4 +1,4 @@
-// When a checkpoint is written between steps, and when a run is to stop.
+// When checkpoints are written between steps, and when a run has to stop.
 #include "run/loop/checkpoint_keeper.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// At time 0.5, with one disk.
+// An engine at time 0.5 with one disk, which does not advance.
 class Standing : public test::ScriptedEngine {
  public:
   Standing() {
@@ -30,7 +30,8 @@ class Standing : public test::ScriptedEngine {
 
 constexpr double never_up = std::numeric_limits<double>::infinity();
 
-// Writing one begins the interval anew. On a busy machine one interval may pass before the next look, but not five.
+// After each checkpoint the interval starts anew. On a busy machine one interval may pass before the next call, but not
+// five.
 TEST(LongCheckpointKeeper, WritesOneAnIntervalAndNoMore) {
   const test::TestFolder place("keeper");
   OutputFolder folder((place.path() / "out").string(), "keeper.toml", false);
@@ -51,7 +52,7 @@ TEST(LongCheckpointKeeper, WritesOneAnIntervalAndNoMore) {
   EXPECT_TRUE(spared);
 }
 
-// What a run has taken is that of all its parts.
+// The time that a run has taken is the sum over its parts.
 TEST(CheckpointKeeper, AddsToWhatEarlierPartsTook) {
   RunRecord before;
   before.wall_s = 10.0;
@@ -64,7 +65,7 @@ TEST(CheckpointKeeper, AddsToWhatEarlierPartsTook) {
   EXPECT_EQ(now.step_s, 32.0);
 }
 
-// A run at its end is over, whatever it was to stop for.
+// A run at its end is over, even if there is a reason to stop it.
 TEST(CheckpointKeeper, StopsNoRunThatIsOver) {
   const test::TestFolder place("keeper");
   OutputFolder folder((place.path() / "out").string(), "keeper.toml", false);
@@ -77,7 +78,7 @@ TEST(CheckpointKeeper, StopsNoRunThatIsOver) {
   EXPECT_EQ(keeper.stopped_by(), "--max-walltime");
 }
 
-// A caller that asks gets a checkpoint where there is a folder for it, and none is made.
+// A caller that wants to stop gets a checkpoint if there is a folder for it; no folder is made.
 TEST(CheckpointKeeper, MakesNoFolderForACallerThatAsksToStop) {
   const Standing engine;
   RunRecord record;
@@ -90,14 +91,14 @@ TEST(CheckpointKeeper, MakesNoFolderForACallerThatAsksToStop) {
   keeper.discard_own_folder();
 }
 
-// Asked within a step, so that a long one is left before its end.
+// It is called within steps, so that a long step can be left before its end.
 TEST(CheckpointKeeper, WantsToStopWhereTheTimeIsUp) {
   EXPECT_TRUE(CheckpointKeeper({}, WallClock::now(), 0.0, 0.0).wants_stop());
   EXPECT_FALSE(CheckpointKeeper({}, WallClock::now(), 0.0, never_up).wants_stop());
 }
 
-// A run without results gets a folder for its checkpoint alone. It stays for a run that stops, and goes with one that
-// comes to its end.
+// A run without results gets a folder only for its checkpoint. The folder stays if the run stops, and is removed if the
+// run comes to its end.
 TEST(CheckpointKeeper, TakesTheFolderThatItMadeAwayWhereTheRunEnds) {
   const test::TestFolder place("keeper");
   const fs::path here = fs::current_path();

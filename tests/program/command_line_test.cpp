@@ -1,4 +1,5 @@
-// The real program, as a user or another program calls it: exit statuses, one-line errors, what each command prints.
+// The real program as called by a user or another program: exit statuses, errors of one line, and the output of each
+// command.
 #include <algorithm>
 #include <csignal>
 #include <thread>
@@ -47,10 +48,10 @@ TEST_F(CommandLine, BadUsageIsOneLineWithStatusTwo) {
       {"view", "view: no folder given; expected carom view DIR"},
   };
   for (const auto& [arguments, what] : cases) expect_error("$C " + arguments, 2, what);
-  EXPECT_THAT(files_in(""), ElementsAre("small.toml")) << "nothing is left behind";
+  EXPECT_THAT(files_in(""), ElementsAre("small.toml")) << "no file may be left behind";
 }
 
-// Each would do the whole run, and take a folder of its own.
+// Each process would do the whole run in a folder of its own.
 TEST_F(CommandLine, SeveralProcessesOfAProgramThatRunsAloneAreWarnedOf) {
   const std::string run = "$C run small.toml --threads 1 --set run.t_end=0.1 ";
   const std::string warning =
@@ -101,7 +102,7 @@ TEST_F(LongCommandLine, OtherBadUsageOfRunIsOneLineWithStatusTwo) {
       {"run small.toml --dt \"$UNSET\"", "--dt: what follows it is empty; expected a value; is a variable"},
   };
   for (const auto& [arguments, what] : cases) expect_error("$C " + arguments, 2, what);
-  EXPECT_THAT(files_in(""), ElementsAre("small.toml")) << "nothing is left behind";
+  EXPECT_THAT(files_in(""), ElementsAre("small.toml")) << "no file may be left behind";
 }
 
 TEST_F(LongCommandLine, BadUsageOfOtherCommandsIsOneLineWithStatusTwo) {
@@ -134,7 +135,7 @@ TEST_F(LongCommandLine, BadUsageOfOtherCommandsIsOneLineWithStatusTwo) {
       {"render small.toml --frame 0", "--frame: is \"0\""},
   };
   for (const auto& [arguments, what] : cases) expect_error("$C " + arguments, 2, what);
-  EXPECT_THAT(files_in(""), ElementsAre("small.toml")) << "nothing is left behind";
+  EXPECT_THAT(files_in(""), ElementsAre("small.toml")) << "no file may be left behind";
 }
 
 TEST_F(CommandLine, WhatFollowsTwoDashesIsNoOption) {
@@ -146,10 +147,10 @@ TEST_F(CommandLine, WhatFollowsTwoDashesIsNoOption) {
   expect_error("$C check small.toml -- -more", 2, "one argument too many, \"-more\"");
 }
 
-// Whoever reads what the program prints may go away first (head -1): the program ends as cat and git do, by the signal
-// and without a word, once all files are whole. Where the caller ignores the signal it is an error, as theirs.
+// If the reader of its output ends first (head -1), the program ends by the signal, without a message, like cat and
+// git, once all files are complete. If the caller ignores the signal it is an error, as with these.
 TEST_F(CommandLine, AReaderThatGoesAwayEndsTheProgramBySIGPIPE) {
-  std::signal(SIGPIPE, SIG_DFL);  // whoever started this test may ignore it, which a shell hands on
+  std::signal(SIGPIPE, SIG_DFL);  // the shell that runs this test may ignore it, which child processes inherit
   const auto say_to_no_reader = [&](const std::string& before, const std::string& arguments) {
     shell(
         fmt::format("rm -f gone; {{ {} until [ -e gone ]; do sleep 0.01; done; $C {} 2>said; echo $? >status; }} | "
@@ -172,7 +173,7 @@ TEST_F(CommandLine, KernelsThatThereAreNotAreRefusedByEveryCommand) {
   expect_error("CAROM_KERNELS=wide $C docs scene", 2, "CAROM_KERNELS: there are no kernels \"wide\"");
 }
 
-// The address sanitizer takes more room for itself than the limit leaves.
+// The address sanitizer needs more address space than the limit allows.
 TEST_F(CommandLine, AFileThatFindsNoMemoryIsAnError) {
 #ifdef CAROM_ADDRESS_SANITIZER
   GTEST_SKIP() << "the address sanitizer needs terabytes of address space";
@@ -187,7 +188,7 @@ TEST_F(LongCommandLine, TheWallTimeIsInSeconds) {
   EXPECT_TRUE(seconds > 0.3 && seconds < 12.0) << seconds;
 }
 
-// Thousands would take the machine down. Without a mpiexec to be found, none is started whatever happens.
+// Thousands of ranks would bring the machine down. PATH contains no mpiexec, so none can be started.
 TEST_F(CommandLine, MoreRanksThanTheMachineCanBearAreRefused) {
   for (const std::string command : {"run small.toml -o out", "resume out", "sweep small.toml --seeds 2 -o out"}) {
     const Outcome o = shell("PATH=/nonexistent $C " + command + " --ranks 100000");
@@ -202,10 +203,10 @@ TEST_F(CommandLine, MoreRanksThanTheMachineCanBearAreRefused) {
               Not(HasSubstr("too many")));
   EXPECT_FALSE(std::filesystem::exists(at("out")));
   EXPECT_EQ(carom("sweep small.toml --seeds 2 -o out --ranks 100000 --emit slurm").status, 0)
-      << "which is for another machine";
+      << "this script is for another machine";
 }
 
-// Programs in the place of mpiexec.
+// Scripts take the place of mpiexec.
 TEST_F(CommandLine, ARankThatDiesEndsTheRunWithALine) {
   if (!std::filesystem::exists(std::filesystem::path(CAROM_PROGRAM).replace_filename("carom-mpi"))) {
     GTEST_SKIP() << "a build without MPI";
@@ -221,11 +222,11 @@ TEST_F(CommandLine, ARankThatDiesEndsTheRunWithALine) {
   const Outcome missing = run_with("exit 127");
   EXPECT_EQ(missing.status, 1);
   EXPECT_THAT(missing.err, StartsWith("carom: error: one of the ranks could not be started; "));
-  EXPECT_EQ(run_with("exit 3").status, 3) << "rank 0 has said why";
+  EXPECT_EQ(run_with("exit 3").status, 3) << "rank 0 has already printed the error";
 }
 
 TEST_F(CommandLine, HelpAndVersion) {
-  // With the commit, where the sources came with git.
+  // The version includes the commit if the sources are in git.
   EXPECT_THAT(carom("--version").out, MatchesRegex("carom [0-9]+[.][0-9]+[.][0-9]+([+]g[0-9a-f]+([.]dirty)?)?\n"));
   for (const char* const command : {"", "run", "check", "resume", "compare", "render", "view"}) {
     const Outcome o = carom(std::string(command) + " --help");
@@ -277,7 +278,7 @@ TEST_F(LongCommandLine, ChartWritesAllItsFilesOrNone) {
   expect_error("$C chart --tiny -o small.toml", 2, "small.toml: is a file");
   expect_error("$C chart --quik", 2, "chart: there is no option \"--quik\"; expected one of");
   expect_error("$C chart now", 2, "chart: one argument too many, \"now\"");
-  // Ctrl-C when it has measured for a second of processor time, long before the end.
+  // Ctrl-C after a second of processor time, long before the end.
   const pid_t stopped = start({"chart", "--quiet", "-o", "stopped/here"});
   shell(fmt::format("until [ \"$(ps -o cputimes= -p {})\" -ge 1 ]; do sleep 0.01; done", stopped));
   kill(stopped, SIGINT);
@@ -322,7 +323,7 @@ TEST_F(CommandLine, CompareFindsTheFirstBit) {
   EXPECT_EQ(o.status, 0) << o.out;
   EXPECT_EQ(o.out, "same bits in all 11 frames\n");
 
-  // One digit more in the y of disk 3, in the fourth frame only.
+  // One more digit in y of disk 3, in the fourth frame only.
   std::string text = text_of(at("b/trajectory.xyz"));
   std::istringstream lines(text);
   std::string changed, line;
@@ -371,7 +372,7 @@ TEST_F(CommandLine, CheckSaysWhatItWouldModel) {
   EXPECT_EQ(Json::parse(o.out)["particles"], 5);
 }
 
-// Codes that would colour a terminal, ring its bell, or begin another line of it, in a title and in names of files.
+// Control codes that would colour a terminal, ring its bell, or start a new line, in a title and in file names.
 TEST_F(CommandLine, TitlesAndNamesSendNoCodesToTheTerminal) {
   const std::string name = "\x1b[31m.toml";
   const std::string small = text_of(at("small.toml"));
@@ -387,8 +388,8 @@ TEST_F(CommandLine, TitlesAndNamesSendNoCodesToTheTerminal) {
   }
 }
 
-// A scene that the machine could hold and this process may not: a fault of the scene, whether it is run or checked. The
-// address sanitizer takes more room for itself than the limit leaves.
+// A scene that fits into the machine, but not into this process: the error is one of the scene, in a run and in check.
+// The address sanitizer needs more address space than the limit allows.
 TEST_F(LongCommandLine, DisksThatFindNoMemory) {
 #ifdef CAROM_ADDRESS_SANITIZER
   GTEST_SKIP() << "the address sanitizer needs terabytes of address space";
@@ -414,7 +415,8 @@ TEST_F(CommandLine, CollapseWithoutTheExactMethodIsWarnedOf) {
 }
 
 TEST_F(CommandLine, ProgressOnATerminalOnly) {
-  // script(1) gives the program a terminal. Pictures, as there is no ffmpeg, make the run long enough for a line.
+  // script(1) provides a terminal. Without ffmpeg the run makes pictures, which take long enough for a line of
+  // progress.
   const Outcome o =
       shell("script -qec \"PATH=/nonexistent $C run small.toml -o out --set output.movie=true\" /dev/null");
   EXPECT_EQ(o.status, 0) << o.out;

@@ -1,4 +1,4 @@
-// carom compare of folders with summaries alone, and of what cannot be compared.
+// carom compare for folders with only a summary, and for what cannot be compared.
 #include <filesystem>
 
 #include "tests/support/command_support.hpp"
@@ -12,7 +12,7 @@ using test::Outcome;
 
 class CompareSummaries : public test::CommandTest {
  protected:
-  // A folder with this summary and nothing else.
+  // Makes a folder with only this summary.
   void summary(const std::string& folder, const std::string& text) const {
     std::filesystem::create_directories(at(folder));
     write(folder + "/summary.json", text);
@@ -41,7 +41,7 @@ TEST_F(CompareSummaries, KeysThatDifferAreNamed) {
   EXPECT_FALSE(j.contains("frames") || j.contains("tolerance"));
 }
 
-// What scenes of some kinds have, and earlier versions did not write.
+// Figures that only some scenes have, or that earlier versions did not write.
 TEST_F(CompareSummaries, FiguresThatBothHaveAreCompared) {
   summary("a", R"({"state_hash": "00ff", "heat": {"left": 1.5}, "waiting": 0, "removed_by": {"left": 1},
                    "analysis": {"diffusion": 0.5}, "worst_overlap_ids": [1, 2]})");

@@ -1,4 +1,4 @@
-// carom compare with a tolerance, on chosen fields and times: what it finds, and its exit status.
+// carom compare with a tolerance, for chosen fields and times: the differences found, and the exit status.
 #include <fmt/format.h>
 
 #include <array>
@@ -15,7 +15,7 @@ using test::text_of;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// One disk in a box periodic from left to right, at the places and velocities given, a frame each.
+// One disk in a box that is periodic along x, with these positions and velocities, one for each frame.
 std::string trajectory(const std::vector<std::string>& disks, double every = 0.1) {
   std::string text;
   for (std::size_t k = 0; k < disks.size(); ++k) {
@@ -36,7 +36,7 @@ class Compare : public test::CommandTest {
   Outcome compare(const std::string& options) const { return carom("compare a.xyz b.xyz " + options); }
 };
 
-// 1 stands for a difference.
+// Status 1 would mean a difference.
 TEST_F(Compare, WhatCannotBePrintedIsNoDifference) {
   EXPECT_EQ(carom("run small.toml --quiet -o run").status, 0);
   expect_error("$C compare run run >/dev/full", 2, "cannot write to standard output: No space left on device");
@@ -48,7 +48,7 @@ TEST_F(Compare, WhatCannotBePrintedIsNoDifference) {
             "2\ncarom: error: cannot write to standard output: Broken pipe\n");
 }
 
-// Not even by the superuser, who has no leave to look everywhere then.
+// This must hold for the superuser, too, whose right to read everything is taken away here.
 TEST_F(Compare, WhatCannotBeLookedIntoIsNoDifference) {
   EXPECT_EQ(carom("run small.toml --quiet -o run").status, 0);
   for (const std::string command : {"compare shut run", "compare run shut", "resume shut"}) {
@@ -90,7 +90,8 @@ TEST_F(Compare, FramesOfOtherTimesAreToldFromOtherPaths) {
   EXPECT_THAT(carom("compare a.xyz late.xyz").out, HasSubstr("\n  Frames go by their order, and from that one on"));
   EXPECT_THAT(compare("").out, Not(HasSubstr("Frames go by their order")));
   write("late.xyz", trajectory({"1 2 3 4", "9.9995 2 3 4"}, 0.1 * (1.0 + 1e-15)));
-  EXPECT_THAT(carom("compare a.xyz late.xyz").out, Not(HasSubstr("Frames go by their order"))) << "but for rounding";
+  EXPECT_THAT(carom("compare a.xyz late.xyz").out, Not(HasSubstr("Frames go by their order")))
+      << "rounding must not matter";
 }
 
 TEST_F(Compare, FieldsAndTimesAreChosen) {
@@ -105,13 +106,13 @@ TEST_F(Compare, FieldsAndTimesAreChosen) {
   expect_error("$C compare a.xyz b.xyz --times 1:2", 2, "a.xyz: has no frame from t = 1 to 2; expected --times within");
 }
 
-// Sums of steps: 0.1 + 0.2 is 0.30000000000000004, which is 0.3 all the same.
+// Times are sums of steps: 0.1 + 0.2 is 0.30000000000000004, which counts as 0.3.
 TEST_F(Compare, TimesAreChosenButForRounding) {
   write("a.xyz", trajectory({"1 2 3 4", "2 2 3 4", "3 2 3 4", "4 2 3 4"}));
   write("b.xyz", trajectory({"1 2 3 4", "2 2 3 4", "3 2 3 4", "4.5 2 3 4"}));
   EXPECT_EQ(compare("--times 0.3:").status, 1);
   EXPECT_EQ(compare("--times 0.30000000000000004:").status, 1);
-  EXPECT_EQ(compare("--times :0.3").status, 1) << "the last one at 0.30000000000000004 is within";
+  EXPECT_EQ(compare("--times :0.3").status, 1) << "the last frame, at 0.30000000000000004, counts as 0.3";
   EXPECT_EQ(compare("--times 0.1:0.2").status, 0);
   EXPECT_EQ(compare("--times 0.1:0.1").out, "same bits in 1 frame\n");
   EXPECT_EQ(compare("--at 0.3").status, 1);
@@ -126,21 +127,21 @@ TEST_F(Compare, OfTwoFramesThatAreAsNearTheEarlierIsMeant) {
   EXPECT_EQ(compare("--at 0.75").status, 1);
 }
 
-// Left and right are periodic here, bottom and top are not.
+// The left and right sides are periodic here, the bottom and top are not.
 TEST_F(Compare, OnlyPeriodicSidesAreCrossed) {
   write("a.xyz", trajectory({"1 0.5 3 4", "1 0.5 3 4"}));
   write("b.xyz", trajectory({"1 7.5 3 4", "1 7.5 3 4"}));
   EXPECT_EQ(compare("--tolerance 1").status, 1);
   EXPECT_EQ(compare("--tolerance 7").out,
             "the same to 7 in 2 frames\n  y       differs by at most 7, in frame 1 (t = 0), disk 0\n")
-      << "the first of those that are as large";
+      << "the first of several equal differences";
   for (const char* const file : {"a.xyz", "b.xyz"}) {
     write(file, test::replaced(test::replaced(text_of(at(file)), "T F F", "F T F"), "T F F", "F T F"));
   }
   EXPECT_EQ(compare("--tolerance 1").status, 0);
 }
 
-// Times of 1e-12 are those of a scene in nanometres and seconds, say.
+// Times of 1e-12 occur, for example, in a scene in nanometres and seconds.
 TEST_F(Compare, TimesAreChosenInAnyUnit) {
   write("short_a.xyz", trajectory({"1 2 3 4", "2 2 3 4", "3 2 3 4"}, 1e-12));
   write("short_b.xyz", trajectory({"1 2 3 4", "2 2 3 4", "3.5 2 3 4"}, 1e-12));
@@ -157,14 +158,14 @@ TEST_F(Compare, SpinsThatNeitherHasCannotBeCompared) {
                  "a.xyz and b.xyz: neither has spins, so that they cannot be compared; expected other --fields");
   }
   EXPECT_EQ(compare("--tolerance 0.5 --fields x,y,vx,vy,radius,mass,spin,group,image_x,image_y").status, 0)
-      << "all that there is";
+      << "all frames that there are";
   ASSERT_EQ(carom("run small.toml --quiet -o smooth").status, 0);
   ASSERT_EQ(carom("run small.toml --quiet -o rough --set physics.roughness.tangential_restitution=0.5 --set "
                   "disks.0.spin_temperature=1")
                 .status,
             0);
   EXPECT_EQ(carom("compare rough rough --fields spin").out, "same bits in 11 frames, of spin\n");
-  EXPECT_EQ(carom("compare smooth rough --fields y,spin --at 1").status, 1) << "what one has can be compared";
+  EXPECT_EQ(carom("compare smooth rough --fields y,spin --at 1").status, 1) << "fields that both have can be compared";
 }
 
 TEST_F(Compare, WithARuleOnlyTrajectoriesCount) {
@@ -172,7 +173,7 @@ TEST_F(Compare, WithARuleOnlyTrajectoriesCount) {
   ASSERT_EQ(carom("run small.toml --quiet -o two --method exact").status, 0);
   EXPECT_EQ(carom("compare one two").status, 1);
   const Outcome o = carom("compare one two --tolerance 0.1");
-  EXPECT_EQ(o.status, 0) << o.out << "five disks that hardly meet, and summaries of two methods";
+  EXPECT_EQ(o.status, 0) << o.out << "five disks that hardly collide, and summaries of two methods";
   std::string bare = test::small_scene;
   const std::size_t line = bare.find("trajectory = ");
   ASSERT_NE(line, std::string::npos);
@@ -193,13 +194,13 @@ TEST_F(Compare, WhatOnlyOneHasIsADifferenceAtAnyTolerance) {
   EXPECT_EQ(j["same"], false);
 }
 
-// The same disks in another box are another state.
+// The same disks in another box are a different state.
 TEST_F(Compare, TheBoxIsCompared) {
   const std::string one = trajectory({"1 2 3 4", "2 2 3 4"});
   write("a.xyz", one);
   const auto with_box = [&](const std::string& from, const std::string& to) {
     std::string other = one;
-    const std::size_t at = other.rfind(from);  // of the second frame
+    const std::size_t at = other.rfind(from);  // in the second frame
     write("b.xyz", other.replace(at, from.size(), to));
   };
   with_box("10 0 0", "10.5 0 0");
@@ -208,7 +209,7 @@ TEST_F(Compare, TheBoxIsCompared) {
   EXPECT_EQ(o.out, "different: first in frame 2 (t = 0.1): the width of its box is 10 against 10.5\n");
   EXPECT_EQ(compare("--tolerance 0.4").status, 1);
   EXPECT_EQ(compare("--tolerance 0.6").status, 0);
-  EXPECT_EQ(compare("--fields x,y,vx,vy").status, 0) << "where fields are named, they alone count";
+  EXPECT_EQ(compare("--fields x,y,vx,vy").status, 0) << "if fields are named, only these count";
   const Json first = Json::parse(compare("--json").out)["first"];
   EXPECT_EQ(first["quantity"], "width");
   EXPECT_EQ(first["by"], 0.5);
@@ -222,7 +223,7 @@ TEST_F(Compare, TheBoxIsCompared) {
               HasSubstr("the bottom and top sides of its box are not periodic, and are in the other\n"));
 }
 
-// One frame, or more, of two disks with these last columns.
+// One or more frames of two disks with these last columns.
 std::string with_columns(const std::string& columns, const std::vector<std::array<std::string, 2>>& frames) {
   std::string text;
   for (std::size_t k = 0; k < frames.size(); ++k) {
@@ -262,11 +263,11 @@ TEST_F(Compare, AFileWithoutGroupsIsOfOne) {
   write("b.xyz", with_columns(":group:I:1", {{"0", "0"}}));
   EXPECT_EQ(compare("").status, 0);
   write("b.xyz", with_columns(":group:I:1", {{"0", "1"}}));
-  EXPECT_THAT(compare("--tolerance 1e9").out, HasSubstr("disk 1, group: 0 against 1")) << "a group is no length";
+  EXPECT_THAT(compare("--tolerance 1e9").out, HasSubstr("disk 1, group: 0 against 1")) << "a group is not a length";
   EXPECT_EQ(compare("--fields x,y").status, 0);
 }
 
-// A disk beside a side may have gone round once more than one on the other side of it.
+// Of two disks at a periodic side, on either side of it, one may have one round more.
 TEST_F(Compare, RoundsAreComparedOnThePathsOfBoth) {
   const std::string rounds = ":map_shift:I:3";
   const std::string near_left = with_columns(rounds, {{"0 0 0", "0 0 0"}});
@@ -277,10 +278,10 @@ TEST_F(Compare, RoundsAreComparedOnThePathsOfBoth) {
   write("b.xyz", test::replaced(near_left, "X 2 4 0 1 0 0 0.5 1 0 0", "X 0.1 4 0 1 0 0 0.5 1 0 1"));
   EXPECT_THAT(compare("--tolerance 0.3").out, HasSubstr("disk 0, image_x: -1 against 1\n"));
   EXPECT_THAT(compare("--tolerance 0.3").out, HasSubstr("  image_x differs by at most 1, in frame 1"));
-  EXPECT_EQ(compare("--tolerance 11").status, 0) << "in the scene's units: one round is 10";
+  EXPECT_EQ(compare("--tolerance 11").status, 0) << "the tolerance is in the scene's units: one round is 10";
 }
 
-// They are counted from the first frame of a file, and where only some frames are compared that may be another.
+// Rounds are counted from the first frame of a file, which may differ if only some frames are compared.
 TEST_F(Compare, RoundsOfSomeFramesAreComparedWhereTheyAreAskedFor) {
   const std::string rounds = ":map_shift:I:3";
   write("a.xyz", with_columns(rounds, {{"0 0 0", "0 0 0"}, {"1 0 0", "2 0 0"}}));
@@ -290,11 +291,11 @@ TEST_F(Compare, RoundsOfSomeFramesAreComparedWhereTheyAreAskedFor) {
   EXPECT_EQ(compare("--times 1:").out, "same bits in 1 frame\n");
   EXPECT_EQ(compare("--at 1 --fields x,image_x").status, 1);
   write("b.xyz", with_columns("", {{"", ""}, {"", ""}}));
-  EXPECT_EQ(compare("").status, 0) << "of an earlier version, say, which did not count them";
+  EXPECT_EQ(compare("").status, 0) << "as from an earlier version, which did not count them";
   expect_error("$C compare a.xyz b.xyz --fields image_y", 2, "a.xyz and b.xyz: not both have images");
 }
 
-// What one format has of a run, so has the other.
+// A run has the same columns in both formats.
 TEST_F(Compare, BothFormatsHaveTheSame) {
   write("two.toml", test::replaced(test::small_scene, "[run]", R"([[disks]]
 count = 2

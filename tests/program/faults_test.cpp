@@ -1,5 +1,5 @@
-// One test for each fault of the original (docs/original.md) that both stepping methods remedy. Each states a
-// condition, checks that it holds in Carom and that it fails in the original (tests/support/original.hpp).
+// One test for each fault of the original (docs/original.md) that both stepping methods remedy. Each test states a
+// condition, and checks that it holds in Carom and fails in the original (tests/support/original.hpp).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,14 +19,14 @@ using test::original::Options;
 
 using Holds = std::function<bool(const Disks&)>;
 
-// Does the condition hold after every step of ours?
+// Does the condition hold after every step of Carom?
 bool always(const Scene& scene, const State& start, const Holds& holds) {
   bool held = true;
   test::run(scene, start, [&](const Engine& engine) { held = held && holds(engine.state().disks); });
   return held;
 }
 
-// And after every frame of the original's, as many frames as there are steps in the run?
+// Does it hold after every frame of the original, for as many frames as the run has steps?
 bool always_in_original(const Scene& scene, const State& start, const Holds& holds, const Options& options = {}) {
   Disks disks = start.disks;
   bool held = true;
@@ -62,7 +62,7 @@ class Faults : public testing::TestWithParam<Method> {
 INSTANTIATE_TEST_SUITE_P(Methods, Faults, testing::ValuesIn(test::stepping_methods),
                          [](const auto& method) { return test::name_of(method.param); });
 
-// One disk meets two at the same moment: momentum and energy stay all the same.
+// One disk meets two at the same moment: momentum and energy must still be conserved.
 TEST_P(Faults, F03_DiskInTwoPairsAtOnce) {
   const Scene s = scene(20.0, 0.03, 3.0);
   const State start = test::state_of(
@@ -72,7 +72,7 @@ TEST_P(Faults, F03_DiskInTwoPairsAtOnce) {
   EXPECT_FALSE(always_in_original(s, start, conserves(start.disks)));
 }
 
-// Elastic and unequal: (23), not the swap (16).
+// Elastic disks with unequal masses: (23) must hold, not the exchange (16).
 TEST_P(Faults, F04_SwapWithUnequalMasses) {
   const Scene s = scene(20.0, 0.03, 3.0);
   const State start = test::state_of(s, {{6.0, 5.0, 1.0, 0.0, 0.5, 1.0}, {8.5, 5.3, 0.0, 0.0, 0.5, 7.0}});
@@ -84,7 +84,7 @@ TEST_P(Faults, F04_SwapWithUnequalMasses) {
   EXPECT_FALSE(always_in_original(s, start, conserves(start.disks), options));
 }
 
-// 30 radii a step: no disk passes through another, and the exact place comes out.
+// A step of 30 radii: no disk passes through another, and the exact position is reached.
 TEST_P(Faults, F05_TunnellingThroughADisk) {
   const Scene s = scene(100.0, 1.0, 2.0);
   const State start = test::state_of(s, {{5.0, 50.0, 30.0, 0.0, 1.0, 1.0}, {50.0, 50.0, 0.0, 0.0, 1.0, 1.0}});
@@ -106,7 +106,7 @@ TEST_P(Faults, F05_TunnellingThroughAWall) {
   EXPECT_NEAR(test::run(s, start).disks.x[0], 18.0, 1e-12);
 }
 
-// Gravity too is counted: at rest now, but it will fall 50 radii in the step.
+// Gravity counts, too: the disk is at rest now, but will fall by 50 radii in the step.
 TEST_P(Faults, F05_TunnellingByFalling) {
   Scene s = scene(100.0, 1.0, 2.0);
   s.physics.gravity = 100.0;
@@ -115,7 +115,7 @@ TEST_P(Faults, F05_TunnellingByFalling) {
   EXPECT_FALSE(always_in_original(s, start, [](const Disks& d) { return d.y[0] > d.y[1] && d.y[1] > 0.0; }));
 }
 
-// The step is split with a warning, once; a speed beyond all sense stops the run and says so.
+// The step is split, with a single warning; an absurd speed stops the run with an error.
 TEST_P(Faults, F05_SaysThatTheStepIsTooLong) {
   const Scene s = scene(100.0, 1.0, 2.0);
   const auto engine = make_reference_engine(s, test::state_of(s, {{50.0, 50.0, 30.0, 0.0, 1.0, 1.0}}));
@@ -129,7 +129,7 @@ TEST_P(Faults, F05_SaysThatTheStepIsTooLong) {
   EXPECT_THROW(absurd->step(), PhysicsError);
 }
 
-// A disk of radius 20 in cells of 20: its side lies in cells that hold none of its corners.
+// A disk of radius 20 with cells of 20: its edge lies in cells that contain none of its corners.
 TEST_P(Faults, F06_DiskLargerThanACell) {
   const Scene s = scene(100.0, 0.05, 5.0);
   const State start = test::state_of(s, {{50.0, 50.0, 0.0, 0.0, 20.0, 100.0}, {26.0, 50.0, 1.0, 0.0, 1.0, 1.0}});
@@ -139,7 +139,7 @@ TEST_P(Faults, F06_DiskLargerThanACell) {
   EXPECT_EQ(test::run(s, start).counters.collisions, 1U);
 }
 
-// Does the first step see the one pair that its drift makes overlap, where the original's cells do not?
+// Does the first step find the single pair that overlaps after its drift, while the original's cells do not?
 void expect_seen_in_first_step(const Scene& scene, const State& start) {
   Disks drifted = start.disks;
   test::original::move(drifted, scene.run.dt, scene.physics.gravity);
@@ -150,14 +150,14 @@ void expect_seen_in_first_step(const Scene& scene, const State& start) {
   EXPECT_EQ(engine->state().counters.collisions, 1U);
 }
 
-// The lower corners of the large disk hang below the floor and have no cell; the small one meets it near them.
+// The lower corners of the large disk are below the floor and have no cell; the small disk meets it near them.
 TEST_P(Faults, F07_CornersOutsideTheBox) {
   const Scene s = scene(100.0, 0.05, 1.0);
   expect_seen_in_first_step(s,
                             test::state_of(s, {{30.0, 10.9, 0.0, 0.0, 11.0, 9.0}, {20.95, 3.0, 1.0, 0.0, 1.0, 1.0}}));
 }
 
-// An overlapping pair that already separates goes its way.
+// An overlapping pair that already separates must not be changed.
 TEST_P(Faults, F08_SeparatingPairIsNotReversed) {
   Scene s = scene(20.0, 0.01, 0.5);
   s.physics.restitution = 0.5;
@@ -170,7 +170,7 @@ TEST_P(Faults, F08_SeparatingPairIsNotReversed) {
   EXPECT_EQ(max_overlap(end.disks, s.box), 0.0);
 }
 
-// Overlapping with equal velocities: nothing to go back to, nothing to divide by.
+// Overlapping disks with equal velocities: there is no contact to go back to, and no relative speed to divide by.
 TEST_P(Faults, F09_NoRelativeMotion) {
   const Scene s = scene(20.0, 0.01, 0.5);
   const State start = test::state_of(s, {{9.0, 5.0, 0.5, 0.25, 1.0, 1.0}, {10.9, 5.0, 0.5, 0.25, 1.0, 1.0}});
@@ -182,7 +182,7 @@ TEST_P(Faults, F09_NoRelativeMotion) {
   EXPECT_EQ(test::run(s, start).time, 0.5);
 }
 
-// Two disks that meet across a periodic side, in x and in y: velocities change hands.
+// Two disks that meet across a periodic side, along x and along y: they exchange velocities.
 TEST_P(Faults, F10_PeriodicImages) {
   for (const bool along_x : {true, false}) {
     Scene s = scene(10.0, 0.03, 1.5);
@@ -203,7 +203,7 @@ TEST_P(Faults, F10_PeriodicImages) {
   }
 }
 
-// A disk that lies on the floor stays there, for dissipating walls and for elastic ones.
+// A disk at rest on the floor stays there, with dissipating walls and with elastic ones.
 TEST_P(Faults, F11_RestingDiskNeitherSinksNorGains) {
   for (const double wall_restitution : {0.5, 1.0}) {
     Scene s = scene(10.0, 0.01, 20.0);
@@ -219,7 +219,8 @@ TEST_P(Faults, F11_RestingDiskNeitherSinksNorGains) {
   }
 }
 
-// A ball that falls on an elastic floor comes back to its height, however often, wherever in the step it hits.
+// A ball that falls on an elastic floor returns to its height any number of times, at whatever time in the step it
+// hits.
 TEST_P(Faults, F11_BouncingDiskKeepsItsEnergy) {
   Scene s = scene(10.0, 0.013, 60.0);
   s.physics.gravity = 0.5;
@@ -232,7 +233,7 @@ TEST_P(Faults, F11_BouncingDiskKeepsItsEnergy) {
   EXPECT_FALSE(always_in_original(s, start, keeps));
 }
 
-// A periodic box is W wide for the centre: it leaves [0, W) never, and every step moves it by v dt.
+// In a periodic box of width W the centre is always in [0, W), and every step moves it by v dt.
 TEST_P(Faults, F12_WrapsByTheCentre) {
   Scene s = scene(10.0, 0.05, 30.0);
   test::set_sides(s.box, SideKind::periodic, SideKind::periodic);
@@ -245,7 +246,7 @@ TEST_P(Faults, F12_WrapsByTheCentre) {
   EXPECT_NEAR(end.disks.y[0], 4.0, 1e-12);
 }
 
-// The large disk's left (upper) corners lie exactly on x = 0 (y = H), where the original finds no cell.
+// The left (upper) corners of the large disk are exactly at x = 0 (y = H), where the original finds no cell.
 TEST_P(Faults, F13_CornersOnTheEdges) {
   const Scene s = scene(100.0, 0.05, 1.0);
   expect_seen_in_first_step(s,
@@ -254,7 +255,7 @@ TEST_P(Faults, F13_CornersOnTheEdges) {
                             test::state_of(s, {{50.0, 89.5, 0.0, 0.0, 10.5, 9.0}, {60.12, 95.0, -1.0, 0.0, 1.0, 1.0}}));
 }
 
-// Two disks that share two cells collide once.
+// Two disks that are both in two cells collide once.
 TEST_P(Faults, F14_PairInTwoSharedCells) {
   const Scene s = scene(100.0, 0.05, 1.0);
   const State start = test::state_of(s, {{19.5, 20.0, 1.0, 0.0, 1.0, 1.0}, {21.51, 20.0, -1.0, 0.0, 1.0, 1.0}});
@@ -270,8 +271,8 @@ TEST_P(Faults, F14_PairInTwoSharedCells) {
   EXPECT_FALSE(always_in_original(s, start, turned, options));
 }
 
-// (24): v = u / dt afresh each step, kinetic energy fluctuates about N m 2 D / dt (4 standard errors of 2 N deviates
-// squared); with accumulate = true, as in the original, it grows with every step.
+// (24): v = u / dt is drawn anew in each step, so the kinetic energy fluctuates about N m 2 D / dt (tolerance: 4
+// standard errors of 2 N squared deviates); with accumulate = true, as in the original, it grows in every step.
 TEST_P(Faults, F15_BrownianEnergyDoesNotGrow) {
   constexpr int n = 100;
   Scene s = scene(100.0, 0.01, 1.0);

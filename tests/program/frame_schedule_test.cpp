@@ -1,4 +1,4 @@
-// When frames are due: at the start, at every multiple of an interval, and at the end, whatever the steps between.
+// The times of frames: the start, every multiple of an interval, and the end, for any steps in between.
 #include "run/loop/frame_schedule.hpp"
 
 #include <gmock/gmock.h>
@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-// Times at which a run that advances by dt makes frames.
+// The times at which a run with steps of dt makes frames.
 std::vector<double> frame_times(FrameSchedule schedule, double dt, double t_end) {
   std::vector<double> times;
   double now = 0.0;
@@ -41,7 +41,7 @@ TEST(FrameSchedule, FirstAndLastAlways) {
   EXPECT_EQ(frame_count(0.0, 2.0), 2U);
   for (const double every : {0.0, 1.0}) {
     EXPECT_THAT(frame_times(FrameSchedule(every, 0.0, 0.0), 1.0, 0.0), ElementsAre(0.0));
-    EXPECT_EQ(frame_count(every, 0.0), 1U) << "the first is the last";
+    EXPECT_EQ(frame_count(every, 0.0), 1U) << "the first frame is the last";
   }
 }
 
@@ -50,10 +50,10 @@ TEST(FrameSchedule, IntervalsFarBelowAStepDoNotHang) {
   schedule.made(0.5);
   EXPECT_EQ(schedule.due(0.25), std::nullopt);
   ASSERT_TRUE(schedule.due(0.75).has_value());
-  EXPECT_GT(*schedule.due(0.75), 0.5) << "no time comes twice";
+  EXPECT_GT(*schedule.due(0.75), 0.5) << "no time may occur twice";
 }
 
-// A frame a rounding before the last one is the last one.
+// A frame that is a rounding before the last one counts as the last one.
 TEST(FrameSchedule, LastFrameSwallowsOneJustBefore) {
   const double t_end = 3.0 + 1e-9;
   FrameSchedule schedule(1.0, t_end, 0.0);
@@ -63,8 +63,8 @@ TEST(FrameSchedule, LastFrameSwallowsOneJustBefore) {
   EXPECT_EQ(frame_count(1.0, t_end), 4U);
 }
 
-// (start + k * every - start) / every may be less than k in doubles: then a frame would be due a second time, a
-// rounding later, where no slack is asked for.
+// In doubles (start + k * every - start) / every may be less than k: without slack a frame could then be due a second
+// time, a rounding later.
 TEST(FrameSchedule, NoFrameComesTwiceWhereItsTimeIsRoundedDown) {
   std::size_t rounded_down = 0;
   for (const double start : {0.1, 0.3, 1.38, 7.7}) {
@@ -72,10 +72,10 @@ TEST(FrameSchedule, NoFrameComesTwiceWhereItsTimeIsRoundedDown) {
     const double t_end = start + 100 * 0.1;
     EXPECT_EQ(frame_times(FrameSchedule(0.1, t_end, 0.0, start), t_end, t_end).size(), 101U) << start;
   }
-  EXPECT_GT(rounded_down, 10U) << "else the test shows nothing";
+  EXPECT_GT(rounded_down, 10U) << "too few times are rounded down, so this tests nothing";
 }
 
-// Steps add up to a little less than the time of a frame.
+// The sum of steps is a little less than the time of a frame.
 TEST(FrameSchedule, FrameIsDueARoundingEarlyWhereStepsAreCounted) {
   FrameSchedule schedule(0.1, 1.0, 1e-6);
   schedule.made(0.0);
@@ -83,8 +83,8 @@ TEST(FrameSchedule, FrameIsDueARoundingEarlyWhereStepsAreCounted) {
   EXPECT_EQ(schedule.due(0.1 - 1e-9), 0.1 - 1e-9);
 }
 
-// Frames that begin later than the run, as samples may: 1.38 + (9.38 - 1.38) is less than 9.38 in doubles, and a last
-// frame at that time would never be the last; 0.3 + (0.9 - 0.3) is more than 0.9, which no state has.
+// Frames may begin later than the run, as samples do. In doubles 1.38 + (9.38 - 1.38) is less than 9.38, and a last
+// frame at that time would not be the last; 0.3 + (0.9 - 0.3) is more than 0.9, a time that no state has.
 TEST(FrameSchedule, TheLastFrameIsAtTheEndWhereverTheFirstIs) {
   EXPECT_THAT(frame_times(FrameSchedule(3.0, 9.38, 0.0, 1.38), 0.5, 9.38), ElementsAre(1.38, 4.38, 7.38, 9.38));
   EXPECT_THAT(frame_times(FrameSchedule(0.0, 9.38, 0.0, 1.38), 0.5, 9.38), ElementsAre(1.38, 9.38));

@@ -48,8 +48,8 @@ TEST_F(LongFrameStart, AFrameOfAnEarlierRunIsAStart) {
                                          "positions = { frame = \"first\", time = 0.5 }"));
     run("by_time.toml -o by_time --t-end 0.5");
     EXPECT_THAT(carom("compare second by_time").out, HasSubstr("same bits"));
-    // Frame 3 is at t = 0.5. Frames 3, 4, 5 of the first run are frames 1, 2, 3 of the second, up to the rounding of
-    // other window lengths, and the first of them exactly.
+    // Frame 3 is at t = 0.5. Frames 3, 4, 5 of the first run are frames 1, 2, 3 of the second: the first of them
+    // exactly, the others up to rounding, as windows have other lengths.
     const std::vector<std::string> a = lines_of("plain/trajectory.xyz"), b = lines_of("second/trajectory.xyz");
     for (std::size_t k = 2; k < 22; ++k) EXPECT_EQ(a.at(2 * 22 + k), b.at(k));
   }
@@ -73,7 +73,7 @@ TEST_F(LongFrameStart, WhatIsNoFrameIsRefused) {
   }
 }
 
-// Disks of time stepping may overlap by a little. Smaller ones have room.
+// Disks of time stepping may overlap a little; smaller disks have room.
 TEST_F(LongFrameStart, SmallerDisksOfAPileHaveRoom) {
   write(
       "pile.xyz",
@@ -93,7 +93,8 @@ TEST_F(LongFrameStart, SmallerDisksOfAPileHaveRoom) {
   EXPECT_EQ(check("{ frame = \"pile.xyz\", scale = 0.9998 }").status, 0);
 }
 
-// They are u / dt of a step, and grow as dt shrinks: a gas at a temperature of hundreds.
+// Brownian velocities are u / dt of a step and grow as dt shrinks: used as velocities they would make a gas at a
+// temperature of hundreds.
 TEST_F(LongFrameStart, DisksDoNotFlyOnAsBrownianDisksHop) {
   write("brownian.toml", test::replaced(test::replaced(with_frames, "restitution = 0.9", "diffusion = 0.5"),
                                         "t_end = 1.0", "dt = 0.01\nt_end = 1.0"));
@@ -104,14 +105,15 @@ TEST_F(LongFrameStart, DisksDoNotFlyOnAsBrownianDisksHop) {
     second = test::replaced(second, "{ maxwell = 1.0 }", "{ frame = \"first\" }");
     write("second.toml", test::replaced(second, "t_end = 1.0", "dt = 0.01\nt_end = 1.0"));
     const test::Outcome o = carom("check second.toml");
-    const bool fine = std::string_view(brownian) == "diffusion = 0.5\n";  // forgets them
+    const bool fine = std::string_view(brownian) == "diffusion = 0.5\n";  // here velocities are forgotten in each step
     EXPECT_EQ(o.status, fine ? 0 : 2) << brownian << o.err;
     if (fine) continue;
     EXPECT_THAT(o.err, HasSubstr("velocities: are of first, whose disks are Brownian: u / dt of a step; expected"));
   }
 }
 
-// What a run writes has the flow in it; velocities of a scene are relative to that. It was added twice.
+// Velocities written by a run include the flow, while those of a scene are relative to it. The flow was once added
+// twice.
 TEST_F(LongFrameStart, AShearFlowIsNotAddedAgain) {
   std::string sheared = with_frames + "series = true\n";
   for (const char* const side : {"left", "right", "bottom", "top"}) {

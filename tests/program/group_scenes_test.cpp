@@ -1,4 +1,4 @@
-// scenes/mixing.toml and scenes/tracer_in_bath.toml, against what their comments say.
+// scenes/mixing.toml and scenes/tracer_in_bath.toml, compared with the statements in their comments.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,7 +33,8 @@ GroupMotion motion_of(const Scene& scene, const Disks& disks, const std::string&
   return test::group_motion(disks, members);
 }
 
-// Energy is conserved, so that the mean of both is 2.5 for ever; each of 400 disks fluctuates by T / sqrt(400) at most.
+// Energy is conserved, so the mean of both temperatures stays 2.5; that of each group, of 400 disks, fluctuates by at
+// most T / sqrt(400).
 TEST(GroupScenes, MixingComesToOneTemperature) {
   Scene scene = load_scene(folder + "mixing.toml", {{"run.t_end", "100.0"}});
   const State start = parallel_initial_state(scene, 1);
@@ -49,10 +50,11 @@ TEST(GroupScenes, MixingComesToOneTemperature) {
     cold += motion_of(scene, end.disks, "cold").temperature / 4.0;
   }
   EXPECT_NEAR(hot, 2.5, 4.0 * 2.5 / 20.0 / 2.0);
-  EXPECT_NEAR(hot + cold, 5.0, 0.05) << "what is not heat flows as a whole";
+  EXPECT_NEAR(hot + cold, 5.0, 0.05) << "the rest is the motion of the gas as a whole";
 }
 
-// The hot gas expands and cools until both are as hot, and is pressed together again a swing later.
+// The hot gas expands and cools until both have the same temperature, and is compressed again half an oscillation
+// later.
 TEST(GroupScenes, MixingSwingsFirst) {
   const auto hot_at = [](const char* time) {
     Scene scene = load_scene(folder + "mixing.toml", {{"run.t_end", time}});
@@ -67,9 +69,9 @@ TEST(GroupScenes, MixingSwingsFirst) {
   EXPECT_NEAR(hot_at("20.0"), 3.25, 0.25);
 }
 
-// The friction of a tracer of mass M in two dimensions, Enskog's first approximation:
-// gamma = 2 n g sigma sqrt(2 pi mu T) / M; of the relative velocity times 1 + M N_tracer / (m N_bath). Within a
-// collision or so per tracer, before the flow that they set up in the bath comes back to them.
+// The friction of a tracer of mass M in two dimensions in Enskog's first approximation: gamma = 2 n g sigma sqrt(2 pi
+// mu T) / M; for the relative velocity times 1 + M N_tracer / (m N_bath). It is measured within about one collision of
+// each tracer, before the flow that the tracers cause in the bath acts back on them.
 TEST(LongGroupScenes, ABathBrakesTracersAsEnskogSays) {
   Scene scene = load_scene(folder + "tracer_in_bath.toml", {{"run.t_end", "0.3"}, {"analysis.start", "0.0"}});
   constexpr double eta = 0.3;
@@ -83,7 +85,7 @@ TEST(LongGroupScenes, ABathBrakesTracersAsEnskogSays) {
     const State end = run_scene(scene);
     mean += (motion_of(scene, end.disks, "tracer").velocity.x - motion_of(scene, end.disks, "bath").velocity.x) / runs;
   }
-  // The mean of all runs is known to 0.4 % of the velocity, the rate to 4 %.
+  // The mean over all runs has an error of 0.4 % of the velocity, and the rate one of 4 %.
   const double rate = -std::log(mean / 0.5) / 0.3;
   EXPECT_NEAR(rate, 1.1 * gamma, 0.15 * gamma);
 }

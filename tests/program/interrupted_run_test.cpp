@@ -1,4 +1,4 @@
-// Signals, limits and faults: what the program says, the status it ends with, and that carom resume loses nothing.
+// Signals, limits and faults: the messages and exit statuses of the program; and carom resume, which loses nothing.
 #include <csignal>
 
 #include "io/checkpoint/checkpoint.hpp"
@@ -20,7 +20,7 @@ class InterruptedRun : public test::ProgramTest {
  protected:
   InterruptedRun() { write("busy.toml", test::busy_scene("pairwise", "plots = [\"velocity\", \"energy\"]\n")); }
 
-  // Waits until a file is there; a run that never comes so far fails the test by its time limit.
+  // Waits for a file; a run that never writes it fails the test by the test's time limit.
   static void await(const fs::path& file) {
     while (!fs::exists(file)) usleep(1000);
   }
@@ -37,11 +37,11 @@ TEST_F(LongInterruptedRun, StoppedAgainAndAgainItGivesTheSameResults) {
     EXPECT_THAT(resumed.said, HasSubstr("stopped by --max-walltime at t = "));
     EXPECT_THAT(resumed.said, HasSubstr(" of 8; go on with carom resume parts\n"));
     expect_same_results("whole", "parts");
-    EXPECT_FALSE(fs::exists(at("parts/checkpoint.carom"))) << "the scene did not ask for them";
+    EXPECT_FALSE(fs::exists(at("parts/checkpoint.carom"))) << "the scene asks for no checkpoints";
   }
 }
 
-// Means over the time since the frame before go on too, where no series.csv keeps them.
+// Without series.csv, too, means over the time since the last frame are continued.
 TEST_F(LongInterruptedRun, ObservablesOfATrajectoryGoOn) {
   const std::string run =
       "run busy.toml --quiet --t-end 4 --set output.trajectory=h5md --set output.series=false --set "
@@ -58,7 +58,7 @@ TEST_F(LongInterruptedRun, ObservablesOfATrajectoryGoOn) {
   EXPECT_EQ(o.out, "[] True\n") << o.err;
 }
 
-// What a warning counts goes on, too: it comes in the part in which the undisturbed run has it, once.
+// The counts behind a warning are continued: it comes once, in the part in which the undisturbed run has it.
 TEST_F(LongInterruptedRun, ItWarnsOfTheSame) {
   const std::string scene = CAROM_SOURCE_DIR "/scenes/stability/f02_bounce_at_a_distance.toml";
   const std::string dense = " --set disks.0.count=300 --set box.packing_fraction=0.5 --method pairwise --dt 0.05";
@@ -75,8 +75,8 @@ TEST_F(LongInterruptedRun, ItWarnsOfTheSame) {
   EXPECT_EQ(resumed.said.find(warning, first + 1), std::string::npos) << resumed.said;
 }
 
-// A strict run stops at its first warning. Resumed with --strict it stops again; without, it goes on, and its summary
-// has the warning.
+// A strict run stops at its first warning. Resumed with --strict it stops again; without it the run goes on, and its
+// summary contains the warning.
 TEST_F(InterruptedRun, AWarningThatEndedARunIsNotForgotten) {
   const std::string scene = CAROM_SOURCE_DIR "/scenes/stability/f02_bounce_at_a_distance.toml";
   const std::string dense = " --set disks.0.count=300 --set box.packing_fraction=0.5 --method pairwise --dt 0.05";
@@ -90,7 +90,7 @@ TEST_F(InterruptedRun, AWarningThatEndedARunIsNotForgotten) {
   EXPECT_EQ(strict.status, 3);
   EXPECT_THAT(strict.err, HasSubstr(warning));
   EXPECT_EQ(carom("resume out --quiet").status, 0);
-  // With the figures of the whole run, which are worse by then.
+  // The summary has the figures of the whole run, which are worse by then.
   const std::string reason = "collisions were seen a step late: dt = 0.05";
   EXPECT_THAT(warning, HasSubstr(reason));
   EXPECT_THAT(text_of(at("out/summary.json")), HasSubstr(reason));
@@ -99,7 +99,7 @@ TEST_F(InterruptedRun, AWarningThatEndedARunIsNotForgotten) {
 TEST_F(InterruptedRun, ASignalStopsWithACheckpoint) {
   write("long.toml", test::busy_scene("pairwise", "checkpoint = \"1 h\"\n"));
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
-    fs::remove_all(at("out"));  // or the last round's file would be taken for this one's
+    fs::remove_all(at("out"));  // otherwise the file of the last round would be taken for this one's
     const pid_t run = start({"run", "long.toml", "--t-end", "1e6", "-o", "out", "--quiet"});
     await(at("out/carom-unfinished/series.csv"));
     kill(run, signal);
@@ -121,7 +121,7 @@ TEST_F(InterruptedRun, SigusrWritesOneAndTheRunGoesOn) {
   const Outcome o = carom("resume out");
   EXPECT_EQ(o.status, 2);
   EXPECT_THAT(o.err, HasSubstr("another run is writing there"));
-  EXPECT_EQ(carom("run busy.toml -o out --force").status, 2) << "not even by force";
+  EXPECT_EQ(carom("run busy.toml -o out --force").status, 2) << "not even with --force";
   kill(run, SIGKILL);
   EXPECT_EQ(wait_for(run), -SIGKILL);
   EXPECT_EQ(carom("resume out --quiet --max-walltime 1e-9").status, 4);
@@ -142,7 +142,7 @@ TEST_F(InterruptedRun, WithoutFilesOfItsOwnItMakesAFolderForTheCheckpoint) {
   EXPECT_EQ(summary("whole"), summary("out/busy-2"));
 }
 
-// The command that goes on can be given to a shell as it stands.
+// The command in the message can be given to a shell as it is.
 TEST_F(InterruptedRun, WhatGoesOnIsQuotedForTheShell) {
   const Outcome stopped = carom("run busy.toml -o \"it's 1\" --max-walltime 1e-9 --json");
   ASSERT_EQ(stopped.status, 4);
@@ -167,9 +167,9 @@ TEST_F(InterruptedRun, AFullDiskCostsNothingButTime) {
             "carom: error: cannot write out/carom-unfinished/trajectory.xyz: File too large; the last checkpoint is "
             "whole: carom resume out\n");
   o = shell("ulimit -f 401; $C resume out --quiet");
-  EXPECT_EQ(o.status, 1) << "still full";
+  EXPECT_EQ(o.status, 1) << "the disk is still full";
   EXPECT_THAT(o.err, HasSubstr("the last checkpoint is whole: carom resume out\n"));
-  // Now even the checkpoint itself finds no room.
+  // Now there is no room even for the checkpoint itself.
   o = shell("ulimit -f 20; $C resume out --quiet");
   EXPECT_EQ(o.status, 1);
   EXPECT_THAT(o.err, HasSubstr("the last checkpoint is whole: carom resume out\n"));
@@ -184,11 +184,11 @@ TEST_F(InterruptedRun, AFullDiskThatTakesNoCopyIsNamed) {
   EXPECT_EQ(o.status, 1);
   EXPECT_THAT(o.err,
               StartsWith("carom: error: cannot copy out/trajectory.xyz to copy/carom-unfinished/trajectory.xyz: "));
-  EXPECT_FALSE(fs::exists(at("copy"))) << "nothing is left of it";
+  EXPECT_FALSE(fs::exists(at("copy"))) << "no part of it may be left";
 }
 
 TEST_F(InterruptedRun, ACheckpointThatWasCutShortIsRefusedAndTheOneBeforeServes) {
-  // Two checkpoints: that of the start, and that of the stop.
+  // There are two checkpoints: that of the start and that of the stop.
   write("small.toml", test::busy_scene("pairwise", "checkpoint = \"1 h\"\n"));
   ASSERT_EQ(carom("run small.toml --quiet -o whole --t-end 10").status, 0);
   ASSERT_EQ(carom("run small.toml --quiet -o out --t-end 10 --max-walltime 1e-9").status, 4);
@@ -200,7 +200,7 @@ TEST_F(InterruptedRun, ACheckpointThatWasCutShortIsRefusedAndTheOneBeforeServes)
   EXPECT_EQ(o.err,
             "carom: error: out/carom-unfinished/checkpoint.carom: is damaged: it was cut short or changed after it was "
             "written; the one before it is whole: carom resume out/carom-unfinished/checkpoint.previous.carom\n");
-  EXPECT_EQ(test::text_of(at("out/carom-unfinished/series.csv")), before) << "nothing was touched";
+  EXPECT_EQ(test::text_of(at("out/carom-unfinished/series.csv")), before) << "nothing may change";
   fs::create_directories(at("alone"));
   fs::copy_file(newest, at("alone/checkpoint.carom"));
   EXPECT_EQ(
@@ -220,8 +220,7 @@ TEST_F(InterruptedRun, OutputsThatAreGoneAreMissed) {
   EXPECT_TRUE(fs::exists(at("out/carom-unfinished/checkpoint.carom")));
 }
 
-// The engine goes on too, unless another is named; a checkpoint of another version is taken with a warning.
-// A scene.toml that was edited meanwhile does not count, and is not replaced in silence.
+// A scene.toml that was edited has no effect on the resumed run, and is not replaced without a warning.
 TEST_F(InterruptedRun, ASceneThatWasEditedIsNotThatOfTheCheckpoint) {
   write("scene.toml", test::busy_scene("exact", ""));
   EXPECT_EQ(carom("run scene.toml --quiet -o d --max-walltime 1e-9").status, 4);
@@ -229,7 +228,7 @@ TEST_F(InterruptedRun, ASceneThatWasEditedIsNotThatOfTheCheckpoint) {
   const std::string resume = "resume d --max-walltime 1e-9", told = "carom: warning: " + file + " has changed: ";
   EXPECT_THAT(carom(resume).err, Not(HasSubstr("has changed")));
   write(file, "# by hand\n" + kept);
-  EXPECT_THAT(carom(resume).err, Not(HasSubstr("has changed"))) << "the same in other words";
+  EXPECT_THAT(carom(resume).err, Not(HasSubstr("has changed"))) << "the same scene in other words";
   for (const std::string& other : {test::replaced(kept, "t_end = 20.0", "t_end = 30.0"), kept.substr(0, 100)}) {
     write(file, other);
     EXPECT_THAT(carom(resume).err, StartsWith(told + "the run goes on with the scene in its checkpoint\n"));
@@ -237,6 +236,8 @@ TEST_F(InterruptedRun, ASceneThatWasEditedIsNotThatOfTheCheckpoint) {
   }
 }
 
+// The run goes on with the engine of the checkpoint, unless another is named; a checkpoint of another version of Carom
+// is accepted with a warning.
 TEST_F(LongInterruptedRun, WhatACheckpointSaysOfItselfCounts) {
   ASSERT_EQ(carom("run busy.toml --quiet -o out --engine reference --max-walltime 1e-9").status, 4);
   const std::string file = at("out/carom-unfinished/checkpoint.carom").string();
@@ -257,7 +258,7 @@ TEST_F(LongInterruptedRun, IntoAnotherFolderItLeavesTheFirstAsItWas) {
   EXPECT_EQ(carom("resume out/carom-unfinished/checkpoint.carom --quiet -o copy").status, 0);
   expect_same_results("whole", "copy");
   EXPECT_EQ(test::text_of(at("out/carom-unfinished/trajectory.xyz")), before);
-  EXPECT_EQ(carom("resume out -o whole").status, 2) << "results are not replaced";
+  EXPECT_EQ(carom("resume out -o whole").status, 2) << "results must not be replaced";
   EXPECT_EQ(carom("resume out --quiet").status, 0);
   expect_same_results("whole", "out");
 }
@@ -272,7 +273,7 @@ TEST_F(LongInterruptedRun, AFinishedRunGoesOnToALaterEnd) {
   EXPECT_THAT(carom("resume out --t-end 2").err,
               HasSubstr("--t-end: is 2; expected 3, the checkpoint's time, or more"));
   EXPECT_THAT(carom("resume out --t-end 3.0000000001").err, HasSubstr("expected a step of 0.002 or more beyond 3"));
-  EXPECT_TRUE(fs::exists(at("out/summary.json"))) << "a refusal changes nothing";
+  EXPECT_TRUE(fs::exists(at("out/summary.json"))) << "a refused resume must change nothing";
   EXPECT_EQ(carom("resume out --quiet --t-end 6").status, 0);
   expect_same_results("whole", "out");
   EXPECT_EQ(nlohmann::json::parse(test::text_of(at("out/summary.json")))["resumed"], 1);
@@ -281,7 +282,8 @@ TEST_F(LongInterruptedRun, AFinishedRunGoesOnToALaterEnd) {
               HasSubstr("out: has lost its checkpoint.carom; the one before it is there: carom resume "
                         "out/checkpoint.previous.carom --t-end T"));
 
-  // Without a checkpoint, or with a last step that was cut short, only a new run gets further, and it says so.
+  // Without a checkpoint, or after a last step that was cut short, only a new run can get further, and the message says
+  // so.
   ASSERT_EQ(carom("run busy.toml -o bare --t-end 3" + seldom).status, 0);
   EXPECT_THAT(carom("resume bare --t-end 6").err,
               HasSubstr("bare: holds a finished run that kept no checkpoint; to go further, run it once more with one: "
@@ -291,7 +293,7 @@ TEST_F(LongInterruptedRun, AFinishedRunGoesOnToALaterEnd) {
       carom("resume cut --t-end 6").err,
       HasSubstr("the run's last step was cut short to end at 3.001; expected an earlier checkpoint, or a new run "
                 "to the later end: carom run cut/scene.toml --t-end 6 -o DIR\n"))
-      << "the scene file of the folder, which has what options changed";
+      << "the scene file of the folder includes the changes by options";
 }
 
 TEST_F(InterruptedRun, OptionsOfResumeAreKept) {
@@ -301,7 +303,7 @@ TEST_F(InterruptedRun, OptionsOfResumeAreKept) {
   EXPECT_EQ(summary("out")["time"], 22.0);
 }
 
-// One disk at rest: the first window is the run, and its frames take some seconds, after which the run is whole.
+// With one disk at rest the first window is the whole run, and its frames take some seconds.
 TEST_F(LongInterruptedRun, AStopAmongMillionsOfFramesSaysWhatItWaitsFor) {
   write("rest.toml", R"([box]
 width = 10.0
@@ -326,7 +328,7 @@ series = true
             "once\n");
   const Outcome late = carom("run rest.toml -o late --max-walltime 0.2");
   EXPECT_EQ(late.status, 0);
-  EXPECT_THAT(late.err, HasSubstr("up to t = 10; Ctrl-C, or SIGINT, twice ends it at once\n")) << "no signal yet";
+  EXPECT_THAT(late.err, HasSubstr("up to t = 10; Ctrl-C, or SIGINT, twice ends it at once\n")) << "before any signal";
 }
 
 }  // namespace

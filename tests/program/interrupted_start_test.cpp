@@ -1,4 +1,5 @@
-// Signals and a limit of wall time while the initial state is made: no checkpoint yet, and nothing left behind.
+// Signals, and a limit of wall time, while the initial state is made: there is no checkpoint yet, and no file may be
+// left behind.
 #include <csignal>
 #include <fstream>
 
@@ -11,7 +12,7 @@ namespace fs = std::filesystem;
 using test::Outcome;
 using ::testing::HasSubstr;
 
-// A state that takes minutes to grow.
+// A state whose growth takes minutes.
 constexpr const char* slow_growth = R"([box]
 packing_fraction = 0.84
 [[disks]]
@@ -32,7 +33,7 @@ class InterruptedStart : public test::ProgramTest {
  protected:
   InterruptedStart() { write("slow.toml", slow_growth); }
 
-  // Has the process begun to catch the signal?
+  // Does the process already catch the signal?
   static bool catches(pid_t pid, int signal) {
     std::ifstream status("/proc/" + std::to_string(pid) + "/status");
     for (std::string line; std::getline(status, line);) {

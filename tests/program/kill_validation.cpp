@@ -1,5 +1,5 @@
-// A run that is killed at random moments, again and again, loses nothing: what carom resume makes of what is left is
-// what the undisturbed run leaves. CAROM_KILLS sets how many kills (100 were done by hand, see docs/faults.md).
+// A run that is killed at random moments, again and again, loses nothing: with carom resume it leaves the same results
+// as an undisturbed run. CAROM_KILLS sets the number of kills (100 were done by hand, see docs/faults.md).
 #include "core/base/random.hpp"
 #include "tests/support/program_support.hpp"
 
@@ -26,7 +26,8 @@ class Kill : public test::ProgramTest, public ::testing::WithParamInterface<Kill
     const char* const wanted = std::getenv("CAROM_KILLS");
     return wanted != nullptr ? std::atoi(wanted) : 8;
   }
-  // Perhaps before what is no longer needed was removed: all is there, and going on from such a rest changes nothing.
+  // The kill may have come before files no longer needed were removed: then the results must be complete, and resuming
+  // must change nothing.
   void expect_whole_although_killed() const {
     const fs::path rest = at("out/carom-unfinished");
     if (fs::exists(rest / "checkpoint.carom")) {
@@ -52,12 +53,12 @@ TEST_P(Kill, NothingIsLost) {
     if (!resume) ++from_nothing;
     const pid_t run = resume ? start({"resume", "out", "--quiet", "--threads", attempt % 2 == 0 ? "2" : "1"})
                              : start({"run", "busy.toml", "--quiet", "-o", "out", "--force", "--t-end", t_end});
-    // Mostly while it steps, at times before it has begun or while it finishes.
+    // Most kills come during steps, some before the first step or while the run finishes.
     const double u = uniforms(17, Stream::position, attempt, 0).a;
     usleep(static_cast<useconds_t>(5e5 * u * u));
     kill(run, SIGKILL);
     const int status = wait_for(run);
-    if (status == -SIGKILL && has_checkpoint()) ++kills;  // before the first checkpoint there is nothing to lose
+    if (status == -SIGKILL && has_checkpoint()) ++kills;  // before the first checkpoint nothing can be lost
     if (status == 0) {
       ++runs;
       expect_same_results("whole", "out");
@@ -65,7 +66,7 @@ TEST_P(Kill, NothingIsLost) {
     } else {
       ASSERT_EQ(status, -SIGKILL) << said();
     }
-    if (fs::exists(at("out/summary.json"))) {  // killed after the last file was in its place
+    if (fs::exists(at("out/summary.json"))) {  // killed after the last file was put in place
       expect_whole_although_killed();
       fs::remove_all(at("out"));
     }

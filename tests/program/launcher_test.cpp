@@ -31,7 +31,7 @@ class Launcher : public test::ProgramTest {
     tool("cmake",
          "echo CMAKE_HOME_DIRECTORY:INTERNAL=$ROOT >$ROOT/build/release/CMakeCache.txt; "
          "touch -d '1 minute' $ROOT/build/release/build.ninja");
-    // Like ninja: a line of its own on a terminal only, and nothing to do the second time.
+    // A stand-in for ninja: it overwrites its line only on a terminal, and has nothing to do the second time.
     tool("ninja", R"(case "$*" in *-n*) [ -e $ROOT/built ] && echo 'ninja: no work to do.'; exit 0;; esac
 [ -t 1 ] && [ "$1" != --quiet ] && echo "status: $NINJA_STATUS"
 echo 'a word of the compiler'
@@ -97,7 +97,8 @@ echo; echo '100% tests passed, 0 tests failed out of 300')");
   const Outcome o = launch("root/carom test");
   EXPECT_EQ(o.status, 0);
   EXPECT_EQ(o.out, "\n100% tests passed, 0 tests failed out of 300\n");
-  EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 11) << "a line at every tenth, and of configuring\n" << o.err;
+  EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 11) << "a line for every tenth, and one for configuring\n"
+                                                              << o.err;
   EXPECT_THAT(o.err, EndsWith("carom: 300 of 300 tests, 0 failed\n"));
 }
 
@@ -113,7 +114,8 @@ TEST_F(LongLauncher, BuildingShowsNinjasLineOnATerminalOnly) {
   launch("rm root/built");
   const std::string shown = launch("script -qec 'root/carom test' /dev/null").out;
   EXPECT_THAT(shown, HasSubstr("status: carom: building, %f of %t"));
-  EXPECT_THAT(launch("script -qec 'root/carom test' /dev/null").out, IsEmpty()) << "nothing to build, no word";
+  EXPECT_THAT(launch("script -qec 'root/carom test' /dev/null").out, IsEmpty())
+      << "with nothing to build there must be no output";
 }
 
 TEST_F(Launcher, ABuildThatFailsSaysWhy) {
@@ -134,13 +136,13 @@ TEST_F(LongLauncher, CountsAreOfTheProgramBuiltNow) {
   EXPECT_THAT(launch("root/carom bench counts --check").err, HasSubstr("could not install: valgrind"));
   tool("dpkg-query", "echo compiler installed; echo valgrind installed");
   const Outcome o = launch("root/carom bench counts --check");
-  EXPECT_EQ(o.status, 3) << "the script's";
+  EXPECT_EQ(o.status, 3) << "the status of the script";
   EXPECT_THAT(o.out, EndsWith("/bench/carom_counts " + fs::canonical(at("root")).string() +
                               "/bench/results/counts.csv --check\n"));
   EXPECT_THAT(test::text_of(at("root/ninja_asked")), HasSubstr(" carom carom_counts\n"));
 }
 
-// It would run all benchmarks, and replace their results.
+// Otherwise all benchmarks would be run, and their results replaced.
 TEST_F(Launcher, AMisspeltBenchmarkRunsNone) {
   for (const char* const words : {"count", "--check", "count --check"}) {
     const Outcome o = launch("root/carom bench " + std::string(words));
@@ -177,7 +179,7 @@ TEST_F(Launcher, ItsOwnCommandsHaveHelp) {
     const Outcome o = launch(std::string("root/carom ") + command + " --help");
     EXPECT_EQ(o.status, 0);
     EXPECT_THAT(o.out, HasSubstr(std::string("./carom ") + command));
-    EXPECT_FALSE(fs::exists(at("root/built"))) << "nothing is built for that";
+    EXPECT_FALSE(fs::exists(at("root/built"))) << "this must build nothing";
   }
   const std::string help = carom("--help").out;
   for (const char* const command : {"./carom", "test", "bench", "python", "paper", "packages"})
@@ -206,7 +208,8 @@ TEST_F(LongLauncher, BuildsAgainAfterAChangeInAnyFolderOfTheProgram) {
   }
 }
 
-// Who may not write there can still use what is built; and a build of the program alone leaves that of ranks as it was.
+// A user without the right to write there can still use what is built; and a build of the program alone leaves the
+// build for ranks as it was.
 TEST_F(Launcher, RanksAreBuiltForOnceAndAgainAfterAChange) {
   for (const char* const program : {"root/build/release/carom", "root/build/release/carom-mpi"}) {
     write(program, "#!/bin/sh\necho the program\n");
@@ -226,7 +229,7 @@ TEST_F(Launcher, RanksAreBuiltForOnceAndAgainAfterAChange) {
   EXPECT_FALSE(builds("run --ranks 2"));
 }
 
-// A key pressed for completion asks what is built, and neither installs nor builds anything.
+// Completion asks the program that is built, and neither installs nor builds anything.
 TEST_F(Launcher, CompletionBuildsNothing) {
   const std::string complete =
       "bash -c 'source " CAROM_SOURCE_DIR

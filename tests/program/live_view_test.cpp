@@ -1,4 +1,5 @@
-// carom view --live: what its server answers to a browser, and refuses to all else; a run followed to its end.
+// carom view --live: the answers of its server to a browser, the refusal of all other requests, and a run followed to
+// its end.
 #include <arpa/inet.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -38,12 +39,12 @@ TEST(HttpRequest, IsReadAsTheStandardSays) {
                                   "GET /a b HTTP/1.1", "", "\r\n\r\n", "\x16\x03\x01"}) {
     EXPECT_NE(read_request(first + host, request), 200) << first;
   }
-  EXPECT_EQ(read_request("GET / HTTP/1.1\r\n\r\n", request), 400) << "no host";
+  EXPECT_EQ(read_request("GET / HTTP/1.1\r\n\r\n", request), 400) << "a request without a host";
   EXPECT_EQ(read_request("GET / HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n", request), 400) << "two hosts";
   EXPECT_EQ(read_request("GET / HTTP/1.1\r\nHost: a\r\nno colon\r\n\r\n", request), 400);
 }
 
-// A page or a movie reads a trajectory more than once: not one and then another.
+// A page or a movie reads a trajectory more than once, and must not read two different ones.
 TEST(Recording, IsReadAsItWasFound) {
   const test::TestFolder folder("recording");
   const std::string frame =
@@ -53,14 +54,14 @@ TEST(Recording, IsReadAsItWasFound) {
   const Recording found = open_recording(name);
   TrajectoryFrame read;
   EXPECT_TRUE(open_frames(found)->read(read));
-  std::ofstream(name, std::ios::app) << frame;  // it may grow
+  std::ofstream(name, std::ios::app) << frame;  // the file may grow
   EXPECT_TRUE(open_frames(found)->read(read));
   std::filesystem::rename(folder.write("another.xyz", frame), name);
   EXPECT_THAT([&] { open_frames(found); }, testing::ThrowsMessage<InputError>(
                                                testing::StartsWith(name + ": was replaced while it was read; expec")));
 }
 
-// A socket of a browser, or of something else.
+// The socket of a browser or another client.
 class Caller {
  public:
   explicit Caller(const std::string& link) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
@@ -81,7 +82,7 @@ class Caller {
     text.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
     return text;
   }
-  // Goes away at once, with what is on its way to it.
+  // Closes the connection at once, with data still on their way.
   void vanish() const {
     const linger at_once{1, 0};
     ::setsockopt(socket_, SOL_SOCKET, SO_LINGER, &at_once, sizeof at_once);
@@ -94,7 +95,7 @@ class Caller {
 class Loopback : public ::testing::Test {
  protected:
   Loopback() {
-    const std::string& link = server_.link();  // http://HOST/TOKEN/
+    const std::string& link = server_.link();  // has the form http://HOST/TOKEN/
     const std::size_t host = std::string("http://").size(), path = link.find('/', host);
     host_ = link.substr(host, path - host);
     path_ = link.substr(path);
@@ -124,7 +125,7 @@ TEST_F(Loopback, AnswersAtItsLink) {
   expect_alive();
   EXPECT_THAT(get(path_, "localhost" + host_.substr(host_.find(':'))), StartsWith("HTTP/1.1 200 "));
   LoopbackServer other([](std::string_view) { return HttpAnswer{}; });
-  EXPECT_NE(other.link().substr(other.link().find('/', 8)), path_) << "a token of its own";
+  EXPECT_NE(other.link().substr(other.link().find('/', 8)), path_) << "each server has its own token";
 }
 
 TEST_F(Loopback, OtherHostsAndTokensGetNothing) {
@@ -164,7 +165,7 @@ TEST_F(Loopback, SurvivesHalfRequestsEndlessOnesAndClientsThatGo) {
   EXPECT_THAT(half.hear(), HasSubstr("behind: well"));
   const std::string endless = ask("GET /" + std::string(2 * longest_request, 'a'));
   EXPECT_TRUE(endless.empty() || endless.starts_with("HTTP/1.1 431 ")) << endless;
-  body_ = 20'000'000;  // more than the system takes at once
+  body_ = 20'000'000;  // more than the system buffers at once
   {
     const Caller gone(host_);
     gone.say("GET " + path_ + " HTTP/1.1\r\nHost: " + host_ + "\r\n\r\n");
@@ -175,7 +176,7 @@ TEST_F(Loopback, SurvivesHalfRequestsEndlessOnesAndClientsThatGo) {
   body_ = 0;
   server_.serve(20);
   expect_alive();
-  EXPECT_GT(server_.quiet_seconds(), 0.0) << "nothing is left of the answer that was broken off";
+  EXPECT_GT(server_.quiet_seconds(), 0.0) << "no rest of the aborted answer may be pending";
 }
 
 TEST_F(Loopback, ManySilentClientsDoNotKeepOthersOut) {
@@ -185,7 +186,7 @@ TEST_F(Loopback, ManySilentClientsDoNotKeepOthersOut) {
   expect_alive();
 }
 
-// Another address of this computer stands for one of its network.
+// Another loopback address of this computer stands for an address of its network.
 TEST_F(Loopback, ListensAtOneAddressAlone) {
   sockaddr_in address{};
   address.sin_family = AF_INET;
@@ -196,7 +197,7 @@ TEST_F(Loopback, ListensAtOneAddressAlone) {
   ::close(socket);
 }
 
-// Frames of two disks, and of a third from frame 3 on.
+// Frames of two disks, and of a third one from frame 3 on.
 std::string frame_text(int k) {
   const int disks = k < 3 ? 2 : 3;
   std::string text = fmt::format(
@@ -211,7 +212,7 @@ std::string frame_text(int k) {
 TEST(LiveRun, IsFollowedFrameByFrameToItsEnd) {
   const test::TestFolder folder("live");
   const auto path = folder.path() / "out";
-  EXPECT_THROW(LiveRun(path, {}), InputError) << "no run";
+  EXPECT_THROW(LiveRun(path, {}), InputError) << "there is no run yet";
   OutputFolder output(path, "scene.toml", false);
   std::ofstream file(output.path("trajectory.xyz"));
   const auto add = [&](const std::string& text) { file << text << std::flush; };
@@ -226,14 +227,14 @@ TEST(LiveRun, IsFollowedFrameByFrameToItsEnd) {
   EXPECT_EQ(now["id"], (nlohmann::json{0, 1}));
   add(frame_text(1) + frame_text(2) + frame_text(3).substr(0, 150));
   live.read(1.0);
-  EXPECT_EQ(news("news/1/2")["times"], (nlohmann::json{1.0, 2.0})) << "what is half written is no frame";
+  EXPECT_EQ(news("news/1/2")["times"], (nlohmann::json{1.0, 2.0})) << "a frame written in part does not count";
   add(frame_text(3).substr(150));
   live.read(1.0);
   now = news("news/2/2");
   EXPECT_EQ(now["times"], (nlohmann::json{3.0}));
   EXPECT_EQ(now["id"], (nlohmann::json{2}));
   EXPECT_EQ(now["ended"], false);
-  EXPECT_EQ(ask("news/3/3").status, 200) << "no news for a page that has all";
+  EXPECT_EQ(ask("news/3/3").status, 200) << "there is nothing new for a page that has all";
   EXPECT_EQ(news("news/3/3")["times"], nlohmann::json::array());
   EXPECT_EQ(ask("block2").status, 200);
   EXPECT_EQ(ask("block2").body, ask("block2").body);
@@ -248,7 +249,7 @@ TEST(LiveRun, IsFollowedFrameByFrameToItsEnd) {
   file.close();
   std::ofstream(output.path("summary.json")) << "{}";
   output.finish();
-  live.read(0.0);  // no time for a frame, but for what comes last
+  live.read(0.0);  // no time for frames, but the last one is still read
   EXPECT_TRUE(live.ended());
   EXPECT_EQ(live.state(), "The run is done.");
   now = news("news/3/3");
@@ -256,7 +257,7 @@ TEST(LiveRun, IsFollowedFrameByFrameToItsEnd) {
   EXPECT_EQ(now["ended"], true);
 }
 
-// Until the end of a run that replaces an earlier one, that lies beside it.
+// Until its end a run that replaces an earlier one is in a folder beside the earlier results.
 TEST(LiveRun, ThatIsStoppedIsNotTheEarlierOne) {
   const test::TestFolder folder("live_again");
   const auto path = folder.path() / "out";
@@ -320,7 +321,7 @@ TEST(LiveRun, KeepsThePageBelowItsSize) {
   const auto times = all["times"].get<std::vector<double>>();
   ASSERT_GT(times.size(), 3U);
   EXPECT_EQ(times[1] - times[0], 1.0);
-  EXPECT_GE(times[times.size() - 1] - times[times.size() - 2], 2.0) << "it does show one of several";
+  EXPECT_GE(times[times.size() - 1] - times[times.size() - 2], 2.0) << "of several frames one is shown";
 }
 
 }  // namespace

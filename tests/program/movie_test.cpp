@@ -1,4 +1,4 @@
-// Frames show what they should where they should, and movies are what every player plays.
+// Frames show everything at its place, and movies can be played by every player.
 #include "io/movie/movie.hpp"
 
 #include <gmock/gmock.h>
@@ -27,7 +27,7 @@ using ::testing::HasSubstr;
 
 int count_of(const FramePainter& painter, std::uint32_t colour) {
   int count = 0;
-  // The colour bar, on the right, shows all colours; only the box counts.
+  // The colour bar on the right has all colours, so only the box is searched.
   for (int row = 0; row < painter.height(); ++row) {
     for (int column = 0; column < painter.width() - 132; ++column)
       count += pixel(painter, column, row) == colour ? 1 : 0;
@@ -48,7 +48,7 @@ TEST(Frame, DiskIsWhereItIsInTheColourOfItsSpeed) {
   EXPECT_EQ(painter.width() % 2, 0);
   EXPECT_EQ(painter.height() % 2, 0);
   painter.paint(one_disk(2.5, 7.5, 1.0, 1.0), 0.0);
-  // 800 pixels for the box, 28 left of it, 78 above.
+  // The box is 800 pixels wide, with 28 to its left and 78 above.
   EXPECT_EQ(pixel(painter, 28 + 200, 78 + 200), packed(viridis(0.5)));
   EXPECT_EQ(pixel(painter, 28 + 600, 78 + 600), 0xffffffU);
   painter.paint(one_disk(7.5, 2.5, 9.0, 1.0), 0.1);
@@ -99,8 +99,8 @@ TEST(FrameStyle, SpeedScaleCoversWhatIsExpected) {
   EXPECT_EQ(predicted(scene, one_disk(5.0, 5.0, 3.0, 1.0)).high, 3.0);
   Disks mixed = one_disk(2.0, 5.0, 1.0, 1.0);
   append(mixed, {6.0, 5.0, 1.0, 0.0, 1.0, 100.0, 1});
-  // kT = 101 / 4, mean of 2 kT / m = 25.5, times 2.5: 8 by its root.
-  EXPECT_EQ(predicted(scene, mixed).high, 8.0) << "the light one will be the faster";
+  // kT = 101 / 4, the mean of 2 kT / m is 25.5, times 2.5: its root is 8.
+  EXPECT_EQ(predicted(scene, mixed).high, 8.0) << "the light disk will be the faster";
   scene.physics.gravity = 0.5;
   EXPECT_EQ(predicted(scene, rest).high, 2.0) << "sqrt(2 g 4)";
   scene.physics.gravity = 0.0;
@@ -108,7 +108,7 @@ TEST(FrameStyle, SpeedScaleCoversWhatIsExpected) {
   EXPECT_EQ(predicted(scene, rest).high, 10.0) << "sqrt(2.5 * 4 D / dt)";
 }
 
-// What comes later makes disks as fast as what is there.
+// Disks that come later, and sources of energy, count like those of the start.
 TEST(FrameStyle, SpeedScaleCoversWhatComesLater) {
   Scene scene;
   scene.box = square_box(10.0);
@@ -135,7 +135,7 @@ TEST(FrameStyle, SpeedScaleCoversWhatComesLater) {
   EXPECT_EQ(predicted(pushed, rest).high, 8.0) << "twice the wall's speed";
 }
 
-// The list of groups has fixed disks in the grey in which they are drawn.
+// The list of groups shows fixed disks in the grey in which they are drawn.
 TEST(FrameStyle, GroupsOfFixedDisksAreGrey) {
   Scene scene;
   scene.box = square_box(10.0);
@@ -173,7 +173,7 @@ TEST(FrameStyle, ColoursFollowTheLook) {
   scene.groups[0].count = 10;
   scene.groups[1].count = 1;
   const std::pair ends{packed(viridis(0.0)), packed(viridis(1.0))};
-  EXPECT_EQ(colours_of(scene, ColourBy::radius), ends) << "from 1 to 2";
+  EXPECT_EQ(colours_of(scene, ColourBy::radius), ends) << "the scale goes from 1 to 2";
   EXPECT_EQ(colours_of(scene, ColourBy::mass), std::pair(packed(viridis(0.1)), packed(viridis(0.9)))) << "0 to 10";
   EXPECT_EQ(colours_of(scene, ColourBy::id), std::pair(packed(viridis(0.0)), packed(viridis(1.0)))) << "0 to 10";
   EXPECT_EQ(colours_of(scene, ColourBy::group), std::pair(packed(group_colour(0)), packed(group_colour(1))));
@@ -225,7 +225,7 @@ TEST(Frame, SizeIsWhatTheLookSays) {
   }
 }
 
-// What ffprobe says of a file: codec, pixel format, size, number of frames.
+// The description of a file by ffprobe: codec, pixel format, size, number of frames.
 std::string probe(const std::string& path) {
   const std::string command =
       "ffprobe -v error -count_frames -show_entries "
@@ -268,7 +268,7 @@ TEST_F(LongMovie, OtherFormatsAndFramesPerSecond) {
     EXPECT_THAT(probe(file), ::testing::StartsWith(std::string(codec) + "\n400\n320\n"));
     EXPECT_THAT(probe(file), ::testing::EndsWith("\n5\n"));
     EXPECT_TRUE(is_whole_movie(file, format));
-    // Cut short anywhere, it is not whole.
+    // A file cut short anywhere is not whole.
     for (const std::uintmax_t lost : {1U, 100U, 1000U}) {
       fs::resize_file(file, fs::file_size(file) - lost);
       EXPECT_FALSE(is_whole_movie(file, format)) << codec << " " << lost;
@@ -277,10 +277,10 @@ TEST_F(LongMovie, OtherFormatsAndFramesPerSecond) {
 }
 
 TEST_F(LongMovie, WhatFfmpegSaysIsInTheError) {
-  fs::create_directories(folder_ + "/movie.mp4");  // cannot be opened as a file
+  fs::create_directories(folder_ + "/movie.mp4");  // it cannot be opened as a file
   MovieWriter movie(folder_, {"test", square_box(1.0), 1.0, 1});
   try {
-    // The pipe buffers something, so the failure may show up only at the end.
+    // The pipe has a buffer, so the failure may show only at the end.
     for (int k = 0; k < 50; ++k) movie.add({}, 0.1 * k);
     movie.finish();
     FAIL() << "no error";

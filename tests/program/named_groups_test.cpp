@@ -1,4 +1,4 @@
-// Groups with names: their columns, what select shows and measures of them, and what is said of names that are none.
+// Groups with names: their columns, how select shows and measures them, and messages for bad names.
 #include <cmath>
 #include <map>
 
@@ -70,7 +70,7 @@ TEST(NamedGroups, MotionIsThatOfTheMembers) {
   const GroupMotion motion = test::group_motion(d, members);
   EXPECT_EQ(motion.velocity, (Vec2{0.0, 3.0}));
   EXPECT_EQ(motion.kinetic, 0.5 * 2 * 9 + 0.5 * 6 * 17);
-  // Away from (0, 3): (3, -3) of mass 2, (-1, 1) of mass 6.
+  // Relative to (0, 3) they have (3, -3) with mass 2 and (-1, 1) with mass 6.
   EXPECT_EQ(motion.temperature, (0.5 * 2 * 18 + 0.5 * 6 * 2) / 2);
   EXPECT_TRUE(std::isnan(test::group_motion(d, {}).temperature));
 }
@@ -91,7 +91,7 @@ TEST(NamedGroups, RowsDoNotDependOnStorageAndEveryBlockHasItsTemperature) {
   EXPECT_NEAR(value["temperature_bath"], 1.0, 1e-12);
   EXPECT_NEAR(value["temperature_tracer"], 3.0, 1e-12);
   EXPECT_NEAR(value["kinetic_tracer"], 60.0, 1e-10);
-  EXPECT_EQ(value.size(), 18U) << "and no place along the periodic axis";
+  EXPECT_EQ(value.size(), 18U) << "without a position along the periodic axis";
   EXPECT_EQ(value.count("x_tracer"), 0U);
   EXPECT_TRUE(value["y_tracer"] > 0.0 && value["y_tracer"] < 20.0);
   EXPECT_TRUE(std::isnan(value["y_sources"]));
@@ -101,8 +101,8 @@ TEST(NamedGroups, RowsDoNotDependOnStorageAndEveryBlockHasItsTemperature) {
   for (std::size_t k = 0; k < row.size(); ++k) EXPECT_TRUE(row[k] == again[k] || std::isnan(row[k])) << k;
 }
 
-// In a shear flow: energy and velocity are those of the laboratory, as of all disks; a temperature does not have the
-// flow in it, nor what the group moves by in the flow.
+// In a shear flow energy and velocity of a group are those of the laboratory frame, as for all disks; its temperature
+// excludes the flow and the group's motion in the flow.
 TEST(NamedGroups, TemperaturesAreRelativeToAShearFlow) {
   const Scene scene = scene_from(R"(
 [box]
@@ -182,7 +182,7 @@ TEST_F(NamedGroupsRun, ATrajectoryShowsTheGroupInBothFormats) {
     ASSERT_EQ(carom(run + " -o h5 --set output.trajectory=h5md").status, 0);
     EXPECT_THAT(carom("compare xyz h5").out, HasSubstr("same bits in all 13 frames")) << name;
     const std::string last = shell("tail -n 1 xyz/trajectory.xyz").out;
-    EXPECT_THAT(last, HasSubstr(" " + ids.second + " ")) << "its last id";
+    EXPECT_THAT(last, HasSubstr(" " + ids.second + " ")) << "the last id of the group";
     if (name == "tracer") {
       EXPECT_EQ(shell("grep -c '^X' xyz/trajectory.xyz").out, "260\n");
     }
@@ -194,12 +194,12 @@ TEST_F(NamedGroupsRun, ATrajectoryShowsTheGroupInBothFormats) {
             "5 20\n");
 }
 
-// What the analysis of a group says is what it says of a scene that has no other disks.
+// The analysis of a group is the same as in a scene without other disks.
 TEST_F(LongNamedGroupsRun, AnalysisOfAGroupIsThatOfItsDisksAlone) {
   const std::string what =
       "[analysis]\nwhat = [\"pair_correlation\", \"displacement\", \"speeds\", \"density\", \"collision_rate\"]\n"
       "pair_correlation = { r_max = 4.0, bins = 20 }\nselect = \"tracer\"\n";
-  // The largest radius of the scene is part of how pairs are counted at walls.
+  // The largest radius in the scene must stay, as it affects the counting of pairs at walls.
   const std::string text = replaced(with(what), "rate = 2.0\nradius = 0.3", "rate = 2.0\nradius = 0.5");
   write("all.toml", text);
   ASSERT_EQ(carom("run all.toml --quiet -o all --t-end 0").status, 0);

@@ -1,5 +1,5 @@
-// Movies and plots of runs that go on from a checkpoint: none is left that shows less than the run, and none is taken
-// for granted that is not there.
+// Movies and plots of runs continued from a checkpoint: none may remain that shows less than the run, and the run must
+// not claim any that does not exist.
 #include "tests/support/program_support.hpp"
 
 namespace carom {
@@ -21,7 +21,7 @@ class OldPictures : public test::ProgramTest {
     }
   }
 
-  // To a later end, on a machine where no movie and no plot can be made.
+  // Continues the run to a later end, on a machine that can make neither movies nor plots.
   Outcome resume_without_pictures(const std::string& options) const {
     return shell("PATH=$PWD/bin:$PATH $C resume out --quiet --t-end 2 " + options);
   }
@@ -50,12 +50,12 @@ TEST_F(LongOldPictures, WhatCannotBeMadeAnewIsNotThatOfAnEarlierEnd) {
   EXPECT_FALSE(fs::exists(at("out/energy.svg")));
   EXPECT_THAT(o.err, HasSubstr("carom resume out draws the plots; carom render out makes the movie"));
   EXPECT_EQ(carom("render out --quiet").status, 0);
-  carom("resume out --quiet");  // status 1, as the run has made no movie
+  carom("resume out --quiet");  // its status is 1, as no movie was made
   EXPECT_TRUE(fs::exists(at("out/movie.mp4")));
   EXPECT_TRUE(fs::exists(at("out/energy.svg")));
 }
 
-// Without a trajectory nothing could make the movie again: the old one stays, and the message says what it is.
+// Without a trajectory the movie could not be made again: the old one stays, and the message says what it shows.
 TEST_F(LongOldPictures, AMovieThatIsAllThereIsStays) {
   ASSERT_EQ(carom(first_part + "--set output.trajectory='\"none\"'").status, 0);
   const Outcome o = resume_without_pictures("");

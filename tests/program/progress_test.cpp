@@ -1,4 +1,4 @@
-// The line of progress of a run, by a clock that the test sets.
+// The progress line of a run, with a clock set by the test.
 #include "app/cli/progress.hpp"
 
 #include <gmock/gmock.h>
@@ -35,7 +35,7 @@ State state_at(double time, Count steps) {
 TEST(Progress, OffATerminalIsALineAMinute) {
   Clock clock;
   Progress progress(true, 100.0, state_at(0.0, 0), 10, clock.place(false));
-  // A run of three and a half minutes, whose line is updated ten times a second; it slows down after two.
+  // A run of three and a half minutes, whose line is updated ten times a second; after two minutes it slows down.
   for (int tenth = 1; tenth <= 2100; ++tenth) {
     clock.now += 0.1;
     const double seconds = 0.1 * tenth;
@@ -69,8 +69,8 @@ TEST(Progress, OnATerminalTheLineIsRenewedInPlace) {
       progress.update(state_at(k, static_cast<Count>(k)));
     }
   }
-  ASSERT_THAT(clock.written, SizeIs(2)) << "one after 0.3 s, and it is taken away at the end";
-  EXPECT_EQ(clock.written[0], "\r 20.0 %  t = 2 of 1\x1b[K") << "no longer than the terminal is wide";
+  ASSERT_THAT(clock.written, SizeIs(2)) << "one line after 0.3 s, which is removed at the end";
+  EXPECT_EQ(clock.written[0], "\r 20.0 %  t = 2 of 1\x1b[K") << "the line must fit into the terminal";
   EXPECT_EQ(clock.written[1], "\r\x1b[K");
 }
 
@@ -79,10 +79,10 @@ TEST(Progress, TimeLeftGoesByWhatWasGained) {
   EXPECT_EQ(progress_text(then, now, 50, 100.0),
             " 12.0 %  t = 12 of 100  100 steps/s  5 k disk-steps/s  " + duration_text(4.0 * 88.0 / 2.0) + " left");
   EXPECT_EQ(progress_text(then, {14.0, 10.0, 1400}, 50, 100.0), " 10.0 %  t = 10 of 100  100 steps/s  5 k disk-steps/s")
-      << "where no time was gained, how long is left cannot be told";
+      << "without progress the time left is unknown";
 }
 
-// Ten seconds at one unit of time a second, and ten at half of that: what was before is forgotten.
+// Ten seconds at one unit of time per second, then ten at half of that: earlier rates are forgotten.
 TEST(Progress, RatesAreThoseOfTheLastSeconds) {
   Clock clock;
   Progress progress(true, 100.0, state_at(0.0, 0), 10, clock.place(true, 200));
@@ -95,7 +95,7 @@ TEST(Progress, RatesAreThoseOfTheLastSeconds) {
             "\r 15.0 %  t = 15 of 100  10 steps/s  100 disk-steps/s  " + duration_text(170.0) + " left\x1b[K");
 }
 
-// Seconds of five and of fifteen steps in turn: a rate is that of the last five seconds, not of the last one.
+// Seconds with five and with fifteen steps in turn: the rate is that of the last five seconds, not of the last one.
 TEST(Progress, RatesAreMeansOfMoreThanAMoment) {
   Clock clock;
   Progress progress(true, 100.0, state_at(0.0, 0), 10, clock.place(true, 200));
@@ -108,7 +108,7 @@ TEST(Progress, RatesAreMeansOfMoreThanAMoment) {
   EXPECT_THAT(clock.written.back(), ::testing::HasSubstr("  11 steps/s  110 disk-steps/s"));
 }
 
-// Of ten disks three had come from sources and one had left before; five more come, and one more leaves.
+// Of ten disks three had come from sources, and one had left before; five more come, and one more leaves.
 TEST(Progress, DisksAreThoseThatThereAre) {
   Clock clock;
   State state = state_at(0.0, 0);
@@ -127,7 +127,7 @@ TEST(Progress, ALineIsTakenAwayOnce) {
   Clock clock;
   Progress progress(true, 100.0, state_at(0.0, 0), 10, clock.place(true));
   progress.clear();
-  EXPECT_THAT(clock.written, IsEmpty()) << "there is none yet";
+  EXPECT_THAT(clock.written, IsEmpty()) << "there is no line yet";
   clock.now += 1.0;
   progress.update(state_at(1.0, 10));
   progress.clear();

@@ -1,4 +1,4 @@
-// carom render: what the extension says, as the options and the scene say, of finished and of unfinished runs.
+// carom render: the format by the extension, the look by options and scene, for finished and unfinished runs.
 #include <string>
 #include <vector>
 
@@ -47,7 +47,7 @@ class Render : public test::ProgramTest {
     ASSERT_EQ(o.status, 0) << o.err;
   }
 
-  // Codec, width, height, frames a second, and number of frames.
+  // Codec, width, height, frames per second, and number of frames.
   std::string probe(const std::string& file) {
     return shell(
                "ffprobe -v error -count_frames -show_entries stream=codec_name,width,height,r_frame_rate,nb_read_frames"
@@ -58,7 +58,7 @@ class Render : public test::ProgramTest {
 };
 using LongRender = Render;
 
-// Half a character, or one that is none, is an error to Cairo, which drew nothing more: no title, and no colours.
+// Half a character, or an invalid one, is an error for Cairo, which once drew nothing more: neither title nor colours.
 TEST_F(Render, OddTitlesLeaveThePictureWhole) {
   std::string three_bytes_each = "x";
   for (int k = 0; k < 700; ++k) three_bytes_each += "日";
@@ -69,7 +69,8 @@ TEST_F(Render, OddTitlesLeaveThePictureWhole) {
   }
 }
 
-// A trajectory by itself is called by its name, which need not be UTF-8: the picture had neither title nor colours.
+// A trajectory by itself is titled with its file name, which need not be UTF-8: such a picture once had neither title
+// nor colours.
 TEST_F(Render, AFileOfAnyNameHasTheWholePicture) {
   run_small("--set output.movie=false");
   for (const char* const name : {"b\344d.xyz", "b\357\277\275d.xyz"}) {
@@ -80,7 +81,7 @@ TEST_F(Render, AFileOfAnyNameHasTheWholePicture) {
   EXPECT_EQ(text_of(at("a.svg")), text_of(at("b.svg")));
 }
 
-// A disk that covers the box many times over took for ever.
+// Drawing a disk that covers the box many times once took for ever.
 TEST_F(Render, ADiskFarLargerThanTheBoxIsDrawn) {
   write("one.xyz",
         "1\nLattice=\"20 0 0 0 12 0 0 0 1\" pbc=\"F F F\" "
@@ -90,7 +91,7 @@ TEST_F(Render, ADiskFarLargerThanTheBoxIsDrawn) {
   EXPECT_EQ(o.status, 0) << o.err;
 }
 
-// It left a folder with a part of the movie beside where that would have been.
+// A render that was stopped once left a folder with a part of the movie.
 TEST_F(LongRender, OneThatIsStoppedLeavesNothingBehind) {
   run_small("--set output.movie=false --set output.every=2e-4");
   fs::create_directories(at("film"));
@@ -102,7 +103,7 @@ TEST_F(LongRender, OneThatIsStoppedLeavesNothingBehind) {
   EXPECT_TRUE(fs::is_empty(at("film")));
 }
 
-// The second took away the first one's work, and asked whether the disk was full.
+// The second render once removed the work of the first, and asked whether the disk was full.
 TEST_F(Render, TwoDoNotMakeOneFileAtOnce) {
   run_small("--set output.movie=false");
   fs::create_directories(at("a.svg.unfinished/made"));
@@ -115,7 +116,7 @@ TEST_F(Render, TwoDoNotMakeOneFileAtOnce) {
     EXPECT_EQ(o.err, "carom: error: a.svg: another carom render is making it now; expected another file (-o)\n");
     EXPECT_EQ(text_of(at("a.svg.unfinished/made/frame")), "of the first");
   }
-  EXPECT_EQ(carom("render out -o a.svg").status, 0) << "what one that was killed has left is no hindrance";
+  EXPECT_EQ(carom("render out -o a.svg").status, 0) << "the rest of a killed render must not matter";
   EXPECT_FALSE(fs::exists(at("a.svg.unfinished")));
 }
 
@@ -139,7 +140,7 @@ TEST_F(LongRender, TheExtensionSaysWhatItBecomes) {
   ASSERT_EQ(carom("render out -o last.png --size 800x600").status, 0);
   ASSERT_EQ(carom("render out -o fifth.png --size 800x600 --frame 5").status, 0);
   EXPECT_THAT(text_of(at("last.png")), StartsWith("\x89PNG"));
-  EXPECT_EQ(text_of(at("last.png")), text_of(at("fifth.png"))) << "the last unless --frame says which";
+  EXPECT_EQ(text_of(at("last.png")), text_of(at("fifth.png"))) << "without --frame it is the last frame";
   EXPECT_THAT(probe("last.png"), StartsWith("png,800,600,"));
   ASSERT_EQ(carom("render out/trajectory.xyz -o picture.svg --colour radius --frame 1").status, 0);
   EXPECT_THAT(text_of(at("picture.svg")), HasSubstr("<svg"));
@@ -171,7 +172,7 @@ TEST_F(Render, WhatItCannotMakeIsRefusedInOneLine) {
     EXPECT_FALSE(fs::exists(at(file)));
 }
 
-// Where ffmpeg is missing a movie is a folder of frames, which is asked for and replaced as a file would be.
+// Without ffmpeg a movie is a folder of frames, which is only replaced on request, like a file.
 TEST_F(LongRender, FramesOfAMovieAreReplacedByForceOnly) {
   run_small("--set output.movie=false");
   const std::string render = "PATH=/nonexistent $C render out ";
@@ -186,7 +187,7 @@ TEST_F(LongRender, FramesOfAMovieAreReplacedByForceOnly) {
   const Outcome again = shell(render + "--force --quiet");
   EXPECT_EQ(again.status, 0) << again.err;
   EXPECT_TRUE(fs::exists(at("out/frames/frame_000005.png")));
-  EXPECT_FALSE(fs::exists(at("out/frames/frame_000099.png"))) << "no frame of an earlier movie is mixed in";
+  EXPECT_FALSE(fs::exists(at("out/frames/frame_000099.png"))) << "no frame of an earlier movie may remain";
   EXPECT_FALSE(fs::exists(at("out/movie.mp4.unfinished")));
   write("out/frames/notes.txt", "mine");
   const Outcome mine = shell(render + "--force");
@@ -195,7 +196,7 @@ TEST_F(LongRender, FramesOfAMovieAreReplacedByForceOnly) {
   EXPECT_EQ(text_of(at("out/frames/notes.txt")), "mine");
 }
 
-// While it runs, or after it was killed: of the last frame, only a part may be there.
+// While a run is going on, or after it was killed, only a part of its last frame may exist.
 TEST_F(LongRender, AnUnfinishedRunIsShownAsFarAsItCame) {
   run_small();
   fs::create_directories(at("broken/carom-unfinished"));
@@ -215,11 +216,11 @@ TEST_F(LongRender, AnUnfinishedRunIsShownAsFarAsItCame) {
   const Outcome o = carom("render cut");
   EXPECT_EQ(o.status, 0) << o.err;
   EXPECT_EQ(o.out, "cut/movie.mp4\n");
-  ASSERT_EQ(carom("resume cut --quiet").status, 0) << "it is not in the way";
+  ASSERT_EQ(carom("resume cut --quiet").status, 0) << "the movie must not be in the way";
   EXPECT_EQ(probe("cut/movie.mp4"), "h264,640,400,5/1,5\n");
 }
 
-// One disk at one speed, so that the other frames do not change the colours.
+// One disk with a constant speed, so that the other frames do not change the colours.
 TEST_F(Render, APictureIsOfTheFrameThatIsAskedFor) {
   const auto frame = [](const std::string& time, const std::string& place) {
     return "1\nLattice=\"10 0 0 0 8 0 0 0 1\" Origin=\"0 0 0\" pbc=\"F F F\" "
@@ -241,8 +242,8 @@ TEST_F(Render, APictureIsOfTheFrameThatIsAskedFor) {
   EXPECT_NE(alone[0], alone[1]);
 }
 
-// The scene that lies beside a trajectory may be that of another run.
-// So that pictures of a run can be compared.
+// The scale covers all frames, so that pictures of a run can be compared. The scene beside a trajectory may belong to
+// another run.
 TEST_F(Render, TheScaleReachesOverAllFrames) {
   const auto picture_of_first = [&](const std::string& speed_of_second) {
     std::string frames;

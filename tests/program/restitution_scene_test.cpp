@@ -1,5 +1,5 @@
-// restitution = { viscoelastic = ... } and [[physics.pairs]] in a scene file: what is read, written again, refused and
-// told by carom check.
+// restitution = { viscoelastic = ... } and [[physics.pairs]] in a scene file: reading, writing, refusals, and the
+// report of carom check.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ using test::sound_scene;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-// Two groups with names, pegs, and disks from a source; line 8 has the restitution, pairs begin in line 9.
+// Two named groups, pegs, and disks from a source; line 8 has the restitution, and pairs start in line 9.
 constexpr std::string_view groups = R"(title = "groups"
 
 [box]
@@ -83,7 +83,7 @@ TEST(RestitutionOfPairs, IsReadAndWrittenAgain) {
   EXPECT_EQ(law.of(0.5, 1, 2), (Restitution{0.75, 0.0}));
   EXPECT_EQ(law.of(0.5, 2, 2), (Restitution{1.0, 0.0}));
   EXPECT_EQ(law.of(0.5, 2, 3), (Restitution{0.0, 0.0}));
-  EXPECT_EQ(law.of(0.5, 0, 3), (Restitution{0.5, 0.0})) << "not stated";
+  EXPECT_EQ(law.of(0.5, 0, 3), (Restitution{0.5, 0.0})) << "this pair is not stated";
   EXPECT_EQ(law.of(0.5, 0, 77), (Restitution{0.125, 0.25}));
   const std::string resolved = resolved_toml(scene);
   EXPECT_EQ(resolved_toml(parse_scene(resolved, "again.toml", "")), resolved);
@@ -99,7 +99,7 @@ TEST(ViscoelasticRestitution, IsReadAndWrittenAgain) {
   EXPECT_THAT(resolved, HasSubstr("restitution = { viscoelastic = 0.1, least = 0.25 }"));
   EXPECT_EQ(resolved_toml(parse_scene(resolved, "again.toml", "")), resolved);
   const Scene deep = scene_from(groups, {{"physics.restitution", "{ viscoelastic = 0.1 }"}});
-  EXPECT_EQ(deep.physics.restitution, 0.0) << "least, where it is not given";
+  EXPECT_EQ(deep.physics.restitution, 0.0) << "the default of the least value";
 }
 
 std::string pair_of(std::string_view names, std::string_view restitution = "restitution = 0.5") {

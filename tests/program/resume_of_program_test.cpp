@@ -1,5 +1,5 @@
-// carom resume of what a program saved: its outputs begin there, nothing beside the file is touched, and the energy
-// that changes brought is no energy from nowhere.
+// carom resume of a file saved by a program: outputs start there, other files nearby are not changed, and the energy of
+// the program's changes does not count as a gain.
 #include <fmt/format.h>
 
 #include "core/load/scene_file.hpp"
@@ -18,8 +18,8 @@ using ::testing::StartsWith;
 
 class ResumeOfProgram : public test::CommandTest {
  protected:
-  // A simulation of small.toml at time 0.5, in which disk 0 is ten times as fast as any was; saved beside files of the
-  // user's own.
+  // A simulation of small.toml at time 0.5, in which disk 0 was made ten times as fast as any; it is saved beside files
+  // of the user.
   std::string save() const {
     Simulation s(load_scene((at("small.toml")).string(), {}), choose_engine("", 1));
     s.run_until(0.5);
@@ -43,7 +43,7 @@ TEST_F(ResumeOfProgram, OutputsBeginAndNothingIsReplaced) {
   EXPECT_THAT(o.err, Not(HasSubstr("has changed")));
   const Json j = Json::parse(o.out);
   EXPECT_EQ(j["state_hash"], hash);
-  EXPECT_EQ(j["frames"], 6) << "of 0.5 to 1.0";
+  EXPECT_EQ(j["frames"], 6) << "frames from 0.5 to 1.0";
   EXPECT_THAT(files_in("mine"), testing::ElementsAre("scene.toml", "series.csv", "state.carom"));
   EXPECT_EQ(test::text_of(at("mine/scene.toml")), "# mine");
   EXPECT_EQ(test::text_of(at("mine/series.csv")), "mine");
@@ -54,8 +54,8 @@ TEST_F(ResumeOfProgram, OutputsBeginAndNothingIsReplaced) {
   EXPECT_THAT(carom("resume mine/state.carom --quiet -o mine").err, HasSubstr("scene.toml of an earlier run"));
 }
 
-// A file with a place for each disk of the scene has some for those that a program added, too; also when a run that
-// began so stops and goes on.
+// A file with a row for each disk of the scene must also have rows for disks added by a program, even if such a run is
+// stopped and resumed.
 TEST_F(LongResumeOfProgram, TrajectoriesHaveTheDisksThatAProgramAdded) {
   for (const std::string format : {"xyz", "h5md"}) {
     Simulation s(load_scene(at("small.toml").string(), {{"output.trajectory", format}, {"run.t_end", "4.0"}}),
@@ -76,7 +76,7 @@ TEST_F(LongResumeOfProgram, TrajectoriesHaveTheDisksThatAProgramAdded) {
   }
 }
 
-// A quarter of a hundred times the energy of before, which a change brought.
+// A change by the program has added a quarter of a hundred times the energy before.
 TEST_F(ResumeOfProgram, EnergyThatAChangeBroughtIsPutIn) {
   save();
   const Outcome o = carom("resume mine/state.carom --strict -o again");

@@ -1,5 +1,6 @@
-// A run that is interrupted and taken up again, by either engine and any number of threads, has the bits of one that
-// was never stopped: for every method, over combinations of features (all of them: resume_validation.cpp).
+// A run that is interrupted and resumed, by either engine and with any number of threads, has the bits of a run that
+// was never stopped: for every method, with a sample of the combinations of features (all of them:
+// resume_validation.cpp).
 #include <tuple>
 
 #include "tests/support/resume_support.hpp"
@@ -51,7 +52,7 @@ TEST(ResumeThermostat, GoesOnWithItsKicks) {
   }
 }
 
-// A pile that rests on its loads; the loads of a step's contacts are what the next one starts from.
+// A pile at rest with loads; each step starts from the loads of the step before.
 TEST(ResumePile, GoesOnWithItsLoads) {
   test::Features f;
   f.gravity = true;
@@ -66,7 +67,7 @@ TEST(ResumePile, GoesOnWithItsLoads) {
   test::expect_same_bits(longer, settled, settled.counters.steps + 30, 0);
 }
 
-// A step that failed leaves a state from which it fails again in the same way: no part of it is done twice.
+// A failed step leaves a state from which it fails again in the same way: no part of it may be done twice.
 TEST(ResumeFailed, AStepThatFailedChangesNothingMore) {
   for (const char* method : {"pairwise", "rollback"}) {
     test::Features f;

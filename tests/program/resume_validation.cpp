@@ -1,4 +1,5 @@
-// All that resume_test.cpp samples: every method with every combination of features, interrupted again and again.
+// All cases of which resume_test.cpp takes a sample: every method with every combination of features, interrupted again
+// and again.
 #include <tuple>
 
 #include "tests/support/resume_support.hpp"

@@ -1,4 +1,4 @@
-// Rough disks in a scene file: what is read, written again and refused, what outputs show, and what starts from them.
+// Rough disks in a scene file: reading, writing and refusals, outputs, and scenes that start from them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ std::string rough(const std::string& roughness, const std::string& rest = "resti
   return replaced(sound_scene, "restitution = 0.5", rest + "\nroughness = " + roughness);
 }
 
-// With a line for the disks, which is line 18.
+// The scene with a line for the disks, which is line 18.
 std::string spinning(const std::string& spin) {
   return replaced(rough("{ tangential_restitution = 0.5 }"), "velocities =", spin + "\nvelocities =");
 }
@@ -167,7 +167,7 @@ TEST_F(RoughRun, IsToldByCheck) {
   EXPECT_THAT(carom("check small.toml").out, Not(HasSubstr("rough")));
 }
 
-// Couette's flow, where the wall was forgotten: nothing moves, and nothing else would say why.
+// Couette's flow with a wall that is smooth by mistake: nothing moves, and nothing else would say why.
 TEST_F(RoughRun, CheckSaysThatASmoothWallDragsNothing) {
   const auto check = [&](const std::string& box, const std::string& physics, const std::string& points) {
     write("s.toml", "[box]\nwidth = 10.0\nheight = 10.0\nleft = \"periodic\"\nright = \"periodic\"\n" + box +
@@ -182,7 +182,7 @@ TEST_F(RoughRun, CheckSaysThatASmoothWallDragsNothing) {
   EXPECT_THAT(check("", rough_disks, "[[10.0, 1.0], [0.0, 1.0]]"), trouble);
   EXPECT_THAT(check("wall_roughness = { tangential_restitution = 0.5 }\n", rough_disks, "[[0.0, 1.0], [10.0, 1.0]]"),
               Not(trouble));
-  EXPECT_THAT(check("", "", "[[0.0, 1.0], [9.0, 1.0]]"), Not(trouble)) << "a gate, which moves";
+  EXPECT_THAT(check("", "", "[[0.0, 1.0], [9.0, 1.0]]"), Not(trouble)) << "a gate that moves";
   EXPECT_THAT(check("", "", "[[0.0, 1.0], [10.0, 2.0]]"), Not(trouble));
 }
 

@@ -1,5 +1,5 @@
-// From the first step to the last: which frames and moments a run makes, of which times and in which order, and what it
-// calls between steps.
+// The loop over steps: which frames and samples a run makes, for which times and in which order, and what it calls
+// between steps.
 #include "run/loop/run_loop.hpp"
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-// One disk; time adds up dt. An exact engine knows it at all times within a step.
+// One disk; time advances by dt. An exact engine knows it at all times within a step.
 class Stepping : public test::ScriptedEngine {
  public:
   Stepping(const Scene& scene, double dt, double from = 0.0)
@@ -60,7 +60,7 @@ Scene scene_of(Method method, double t_end, double frames, double start, double 
   return scene;
 }
 
-// What is seen, in order: "f" and "s" with the times of frames and moments.
+// The calls in their order: "f" and "s" with the times of frames and samples.
 std::vector<std::string> seen(Engine& engine, const Scene& scene, RunObserver observer) {
   std::vector<std::string> all;
   observer.frame = [&](const DisksInPieces& disks) { all.push_back(fmt::format("f {:g}", disks.time())); };
@@ -69,17 +69,17 @@ std::vector<std::string> seen(Engine& engine, const Scene& scene, RunObserver ob
   return all;
 }
 
-// Within steps as well, in order of time; of two at the same one, which is asked for once, the moment comes first. The
-// last ones are at the end, whatever the intervals are.
+// Within steps, too, in order of time. Of a frame and a sample at the same time, for which the disks are asked once,
+// the sample comes first. The last ones are at the end, for any intervals.
 TEST(RunLoop, ExactMakesFramesAndMomentsOfTheirTimes) {
   const Scene scene = scene_of(Method::exact, 2.0, 0.375, 0.5, 0.625);
   Stepping engine(scene, 1.25);
   EXPECT_THAT(seen(engine, scene, {}), ElementsAre("f 0", "f 0.375", "s 0.5", "f 0.75", "s 1.125", "f 1.125", "f 1.5",
                                                    "s 1.75", "f 1.875", "s 2", "f 2"));
-  EXPECT_EQ(engine.asked, 7) << "0 and 2 are the state's own times";
+  EXPECT_EQ(engine.asked, 7) << "the state itself has the times 0 and 2";
 }
 
-// The last moment is at the end itself, where adding to the start what the run is longer gives another number.
+// The last sample is at the end itself, even if the start plus the run's length is rounded to another number.
 TEST(RunLoop, TheLastMomentIsAtTheEnd) {
   for (const auto& [start, end] : std::vector<std::pair<double, double>>{{0.2, 0.9}, {0.3, 0.9}}) {
     const Scene scene = scene_of(Method::exact, end, 0.0, start, 0.0);
@@ -96,7 +96,7 @@ TEST(RunLoop, TheLastMomentIsAtTheEnd) {
   }
 }
 
-// A step that ends a rounding before a frame does not stand for it, as it would in time stepping.
+// A step that ends a rounding before a frame must not stand for it, as it would in time stepping.
 TEST(RunLoop, ExactFramesAreNotARoundingEarly) {
   const Scene scene = scene_of(Method::exact, 1.0, 0.5, 0.0, 0.5);
   Stepping engine(scene, 0.5 - 1e-9);
@@ -107,7 +107,7 @@ TEST(RunLoop, ExactFramesAreNotARoundingEarly) {
   EXPECT_THAT(times, ElementsAre(0.0, 0.5, 1.0));
 }
 
-// Eight steps of 0.1 add up to a little less than 0.8, and a moment of that time does not wait for the ninth.
+// Eight steps of 0.1 add up to a little less than 0.8, and a sample at that time must not wait for the ninth.
 TEST(RunLoop, TimeSteppingMakesThemAtTheEndsOfSteps) {
   const Scene scene = scene_of(Method::pairwise, 1.2, 0.35, 0.8, 0.2);
   Stepping engine(scene, 0.1);
@@ -117,10 +117,10 @@ TEST(RunLoop, TimeSteppingMakesThemAtTheEndsOfSteps) {
   EXPECT_THAT(seen(both, together, {}), ElementsAre("f 0", "f 0.4", "s 0.8", "f 0.8", "s 1", "s 1.2", "f 1.2"));
   const Scene before = scene_of(Method::pairwise, 1.0, 0.0, 3.0, 0.2);
   Stepping early(before, 0.1);
-  EXPECT_THAT(seen(early, before, {}), ElementsAre("f 0", "f 1")) << "it ends before the first moment";
+  EXPECT_THAT(seen(early, before, {}), ElementsAre("f 0", "f 1")) << "the run ends before the first sample";
 }
 
-// Steps are made in batches, which end where something is due.
+// Steps are made in batches, which end when something is due.
 TEST(RunLoop, NoneIsLateAmongManySteps) {
   const Scene scene = scene_of(Method::pairwise, 10.0, 2.0, 1.0, 3.0);
   Stepping engine(scene, 1.0 / 1024.0);
@@ -128,7 +128,7 @@ TEST(RunLoop, NoneIsLateAmongManySteps) {
               ElementsAre("f 0", "s 1", "f 2", "s 4", "f 4", "f 6", "s 7", "f 8", "s 10", "f 10"));
 }
 
-// What was made before a checkpoint is not made again, and nothing after it is left out.
+// Frames and samples made before a checkpoint are not made again, and none after it is left out.
 TEST(RunLoop, GoesOnBehindTheLastOnes) {
   for (const Method method : {Method::exact, Method::pairwise}) {
     const Scene scene = scene_of(method, 2.0, 0.5, 0.75, 0.25);
@@ -140,7 +140,7 @@ TEST(RunLoop, GoesOnBehindTheLastOnes) {
   }
 }
 
-// An exact engine keeps the paths of a step for those who ask for times within it.
+// An exact engine keeps the paths of a step only if times within it may be asked for.
 TEST(RunLoop, PathsAreForgottenWhereNobodyAsksForThem) {
   const Scene scene = scene_of(Method::exact, 1.0, 0.5, 0.0, 0.5);
   for (const bool frames : {false, true}) {
@@ -155,7 +155,7 @@ TEST(RunLoop, PathsAreForgottenWhereNobodyAsksForThem) {
   }
 }
 
-// After each step that was made, and after what lies in it; a step that was not made is none.
+// The callback comes after each step made, and after the frames in it; not for a step that was not made.
 TEST(RunLoop, EachStepIsTold) {
   const Scene scene = scene_of(Method::exact, 2.0, 0.5, 0.0, 0.5);
   Stepping engine(scene, 0.25);

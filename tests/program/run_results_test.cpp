@@ -1,4 +1,4 @@
-// What the real program prints of a run, and the files that it leaves.
+// The output of the real program for a run, and the files that it writes.
 #include "io/trajectory/trajectory_xyz.hpp"
 #include "tests/support/command_support.hpp"
 #include "tests/support/scene_support.hpp"
@@ -20,8 +20,8 @@ using ::testing::StartsWith;
 using RunResults = test::CommandTest;
 using LongRunResults = RunResults;
 
-// A disk that moves five radii a step: a warning in the summary, or the end with --strict, with what there was till
-// then.
+// A disk that moves by five radii in a step: there is a warning in the summary, or with --strict the run ends, and
+// keeps its results so far.
 TEST_F(RunResults, StrictEndsARunAtItsFirstWarning) {
   const std::string fast = "run small.toml --set disks.0.velocities='{ uniform = 200.0 }' ";
   const Outcome lenient = carom(fast + "--json -o a");
@@ -30,7 +30,7 @@ TEST_F(RunResults, StrictEndsARunAtItsFirstWarning) {
   ASSERT_FALSE(warnings.empty());
   EXPECT_THAT(warnings[0].get<std::string>(), HasSubstr("the step is split into"));
   EXPECT_EQ(Json::parse(text_of(at("a/summary.json")))["warnings"], warnings);
-  // The warning during the run has the first overlap, the summary the worst.
+  // The warning during the run is about the first overlap, the one in the summary about the worst.
   const std::string before = "carom: warning: ";
   ASSERT_THAT(lenient.err, StartsWith(before));
   const std::string first = lenient.err.substr(before.size(), lenient.err.find('\n') - before.size());
@@ -43,7 +43,7 @@ TEST_F(RunResults, StrictEndsARunAtItsFirstWarning) {
   EXPECT_TRUE(Json::parse(sound.out)["warnings"].empty());
 }
 
-// The energies of a plot do not depend on what else a run writes.
+// The energies of a plot do not depend on the other outputs of a run.
 TEST_F(LongRunResults, APlotOfEnergiesNeedsNoSeries) {
   const std::string run =
       "run small.toml --quiet --set output.trajectory=none --set output.movie=false --set output.plots='[\"energy\"]' ";
@@ -53,7 +53,7 @@ TEST_F(LongRunResults, APlotOfEnergiesNeedsNoSeries) {
   EXPECT_TRUE(text_of(at("with/energy.svg")) == text_of(at("without/energy.svg")));
 }
 
-// A source between disks that never leave it room; one with room enough says nothing.
+// A source between disks that never leave it room gives a warning; one with room enough gives none.
 TEST_F(RunResults, DisksThatStillWaitAtTheEndAreWarnedOf) {
   const std::string source = "[[sources]]\nregion = [4.9, 4.9, 5.1, 5.1]\nrate = 20\nradius = 0.5\nmass = 1\n";
   write("blocked.toml", replaced(test::small_scene, "[run]", source + "[run]"));
@@ -74,7 +74,7 @@ TEST_F(RunResults, DisksThatStillWaitAtTheEndAreWarnedOf) {
 TEST_F(RunResults, JsonIsAllThatIsPrintedAndHasEveryKeyInOrder) {
   const Outcome o = carom("run small.toml -o out --json");
   ASSERT_EQ(o.status, 0) << o.err;
-  EXPECT_THAT(o.err, IsEmpty()) << "no progress line where there is no terminal";
+  EXPECT_THAT(o.err, IsEmpty()) << "without a terminal there is no progress line";
   const Json summary = Json::parse(o.out);
   std::vector<std::string> keys;
   for (const auto& item : summary.items()) keys.push_back(item.key());
@@ -102,11 +102,11 @@ TEST_F(RunResults, RatesFollowFromTheCounts) {
   const Json s = Json::parse(o.out);
   ASSERT_GT(s["collisions"], 100);
   EXPECT_DOUBLE_EQ(s["collision_rate"], 2.0 * s["collisions"].get<double>() / (40.0 * 20.0));
-  EXPECT_GT(s["pressure"], s["energy_final"].get<double>() / 100.0) << "more than the ideal gas";
+  EXPECT_GT(s["pressure"], s["energy_final"].get<double>() / 100.0) << "more than that of the ideal gas";
   EXPECT_NEAR(s["energy_final"].get<double>() / s["energy_initial"].get<double>(), 1.0, 1e-12);
 }
 
-// The mean pressure of a gas that cools does not follow from its energies at the start and at the end: none is given.
+// The mean pressure of a cooling gas does not follow from its energies at the start and the end: none is given.
 TEST_F(RunResults, WhatThePressureIsWhereTheEnergyChanges) {
   EXPECT_THAT(carom("run small.toml -o steady").out, testing::ContainsRegex("  pressure    [0-9.e-]+\n"));
   const Outcome o = carom("run small.toml -o cooling --t-end 20 --set box.wall_restitution=0.5");
@@ -127,8 +127,8 @@ TEST_F(RunResults, WhatThePressureIsWhereTheEnergyChanges) {
   EXPECT_THAT(carom(sheared).out, testing::ContainsRegex("  pressure    [0-9.e-]+\n"));
 }
 
-// Disks that are pressed together in the middle of a run and free again at its end: the summary has it, and that of an
-// interrupted run has the same.
+// Disks are pressed together in the middle of a run and free again at its end: the summary contains the worst overlap,
+// also that of an interrupted run.
 TEST_F(RunResults, TheWorstOverlapOfTheRunBesideThatOfItsEnd) {
   const std::string scene = CAROM_SOURCE_DIR "/scenes/stability/mass_ratio_1e6.toml --method pairwise --dt 0.02";
   const Outcome o = carom("run " + scene + " --quiet --json -o out");
@@ -150,8 +150,8 @@ TEST_F(RunResults, TheWorstOverlapOfTheRunBesideThatOfItsEnd) {
   }
 }
 
-// A disk that crosses a slot in less than a step: too few late bounces to be told of on the way, but the run ends with
-// it.
+// A disk that crosses a slot in less than a step: late bounces are too few for a warning during the run, but there is
+// one at the end.
 TEST_F(RunResults, FewLateBouncesAreToldOfAtTheEnd) {
   write("slot.toml",
         "[box]\nwidth = 1.03\nheight = 20.0\n[[disks]]\ncount = 1\npositions = [[0.51, 10.0]]\n"
@@ -166,7 +166,7 @@ TEST_F(RunResults, FewLateBouncesAreToldOfAtTheEnd) {
   EXPECT_EQ(Json::parse(carom("run slot.toml --json --dt 0.01").out)["warnings"], Json::array());
 }
 
-// u / dt is no velocity: what is made of it is in no file, and no plot.
+// u / dt is not a velocity: quantities computed from it are in no file and no plot.
 TEST_F(RunResults, BrownianDisksHaveNoEnergy) {
   const std::string scene = "run small.toml --set physics.diffusion=0.1 --set output.plots='[\"energy\"]'";
   const Outcome o = carom(scene + " --json -o out");
@@ -188,7 +188,7 @@ TEST_F(RunResults, BrownianDisksHaveNoEnergy) {
   const Outcome table = carom(scene + " -o table");
   EXPECT_THAT(table.out, Not(HasSubstr("energy")));
   EXPECT_THAT(table.out, Not(HasSubstr("pressure")));
-  // With accumulate (F15 of docs/original.md) velocities add up and have an energy.
+  // With accumulate (F15 of docs/original.md) velocities add up, and then they have an energy.
   EXPECT_TRUE(Json::parse(carom(scene + " --set physics.accumulate=true --quiet --json -o more").out)["energy_final"]
                   .is_number());
 }
@@ -212,7 +212,7 @@ TEST_F(RunResults, NothingIsNotANumber) {
 }
 
 TEST_F(RunResults, FramesFromZeroToTheEndNoneTwice) {
-  // dt does not divide the interval; frames come at the ends of steps, the last one at the end of the run.
+  // dt does not divide the interval: frames are made at the ends of steps, the last one at the end of the run.
   ASSERT_EQ(carom("run small.toml --quiet -o out --dt 0.03 --set output.every=0.1").status, 0);
   XyzReader reader(at("out/trajectory.xyz").string());
   XyzFrame frame;
@@ -270,7 +270,7 @@ TEST_F(RunResults, WhereResultsGo) {
   expect_error("$C run small.toml -o out/small", 2, "out/small: holds scene.toml of an earlier run");
   const std::string before = text_of(at("out/small/summary.json"));
   o = carom("run small.toml");
-  EXPECT_EQ(o.status, 0) << "the second time too";
+  EXPECT_EQ(o.status, 0) << "the second time, too";
   EXPECT_THAT(o.err, HasSubstr("results go to out/small-2 (out/small holds another run; --force replaces it)\n"));
   EXPECT_THAT(files_in("out/small-2"), ElementsAre("scene.toml", "series.csv", "summary.json", "trajectory.xyz"));
   EXPECT_THAT(carom("run small.toml --max-walltime 1e-9 --t-end 1e6").err, HasSubstr("results go to out/small-3"));
@@ -286,7 +286,7 @@ TEST_F(RunResults, WhereResultsGo) {
   EXPECT_THAT(o.out + o.err, IsEmpty());
   EXPECT_NE(text_of(at("out/small/summary.json")), before);
   o = carom("run small.toml --set output.trajectory='\"none\"' --set output.series=false");
-  EXPECT_EQ(o.status, 0) << "a scene that asks for no file has no folder";
+  EXPECT_EQ(o.status, 0) << "a scene without files needs no folder";
   EXPECT_THAT(o.err, IsEmpty());
 }
 
@@ -296,7 +296,7 @@ TEST_F(LongRunResults, AFullDiskLeavesNothing) {
   expect_error(run + "--set output.every=0.01", 1, "trajectory.xyz: File too large");
   const std::string no_files = "--set output.series=false --set output.trajectory='\"none\"' ";
   EXPECT_THAT(files_in(""), ElementsAre("small.toml"));
-  // Pictures cost nothing but themselves.
+  // If pictures fail, nothing else is lost.
   expect_error(run + no_files + "--set output.movie=true", 1, "movie.mp4: ");
   EXPECT_THAT(files_in("full/out"), ElementsAre("scene.toml", "summary.json"));
   expect_error(run + no_files + "--force --set output.plots='[\"energy\"]'", 1, "energy.svg: ");
@@ -340,7 +340,7 @@ TEST_F(RunResults, PlotsNeedNoFolderForTemporaryFiles) {
   EXPECT_THAT(files_in("out"), ElementsAre("energy.svg", "scene.toml", "series.csv", "summary.json", "trajectory.xyz"));
 }
 
-// Plots that gnuplot fails to draw are lost, and nothing else; they are drawn when the run is resumed.
+// If gnuplot fails to draw plots, only these are lost; they are drawn when the run is resumed.
 TEST_F(LongRunResults, APlotThatFailsCostsNothingElse) {
   fs::create_directories(at("bin"));
   write("bin/gnuplot", "#!/bin/sh\necho no fonts >&2\nexit 1\n");

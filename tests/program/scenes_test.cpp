@@ -1,4 +1,5 @@
-// The scenes that come with Carom: each loads, A conserves, the sink only takes, the same scene gives the same bits.
+// The scenes that come with Carom: each can be loaded, production A conserves energy, the sink only takes disks, and
+// the same scene gives the same bits.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,18 +33,18 @@ TEST(Scenes, TheFiveOfTheOriginalAreThere) {
                                               "production_c.toml", "two_disks.toml"}));
 }
 
-// Each makes disks that lie inside the box and apart.
+// In each scene all disks are inside the box and do not overlap.
 TEST(Scenes, EachLoadsAndStartsClean) {
   for (const std::string& file : files()) {
     const Scene scene = load_scene(folder + file);
-    if (scene.groups.at(0).count > 10000) continue;  // loads; that large ones start clean is placement_test's
+    if (scene.groups.at(0).count > 10000) continue;  // it can be loaded; large scenes are tested in placement_test
     const State state = initial_state(scene);
     EXPECT_LE(max_overlap(state.disks, scene.box), 0.0) << file;
     EXPECT_LE(wall_overlap(state.disks, scene.box), 0.0) << file;
   }
 }
 
-// Read anew and run anew: the same hash. A different seed: another one.
+// The same scene, read and run again, gives the same hash; another seed gives another one.
 TEST(Scenes, SameSceneTwiceSameHash) {
   for (const std::string file : {"brownian_sink.toml", "production_a.toml", "production_b.toml", "two_disks.toml"}) {
     for (const char* method : {"pairwise", "rollback"}) {
@@ -54,13 +55,13 @@ TEST(Scenes, SameSceneTwiceSameHash) {
       };
       const std::uint64_t first = hash("1");
       EXPECT_EQ(first, hash("1")) << file;
-      EXPECT_EQ(first != hash("2"), file != std::string("two_disks.toml")) << file;  // it draws nothing
+      EXPECT_EQ(first != hash("2"), file != std::string("two_disks.toml")) << file;  // this scene draws nothing
     }
   }
 }
 
-// A: elastic, so the energy is the same to 1e-12 at every step of the whole run, exact (the scene's own method) or
-// stepping in time. Exact disks never overlap by more than rounding.
+// Production A is elastic, so its energy is constant to 1e-12 at every step of the whole run, with exact (the scene's
+// own method) and in time stepping. Disks of exact never overlap by more than rounding.
 TEST(Scenes, ProductionAConservesEnergy) {
   EXPECT_EQ(load_scene(folder + "production_a.toml").run.method, Method::exact);
   for (const char* method : {"exact", "pairwise"}) {
@@ -85,7 +86,7 @@ TEST(Scenes, ProductionAConservesEnergy) {
   }
 }
 
-// brownian_sink, its first 2000 steps: the count of disks never rises, and what is missing was removed.
+// The first 2000 steps of brownian_sink: the number of disks never rises, and missing disks were removed by the sink.
 TEST(Scenes, BrownianSinkOnlyTakes) {
   const Scene scene = load_scene(folder + "brownian_sink.toml", {{"run.t_end", "2.0"}});
   const State start = initial_state(scene);

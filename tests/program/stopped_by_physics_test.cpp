@@ -1,4 +1,4 @@
-// Runs that the physics stops: what they leave, and how the user goes on from there.
+// Runs that are stopped by the physics: the results that they leave, and how the user can go on from there.
 #include "tests/support/command_support.hpp"
 
 namespace carom {
@@ -36,10 +36,11 @@ series = true
                                "checkpoint.carom; carom resume out --t-end "));
   const Outcome again = carom("resume out --quiet");
   EXPECT_EQ(again.status, 3);
-  EXPECT_EQ(again.err, o.err) << "the same collapse, from the state before it";
+  EXPECT_EQ(again.err, o.err) << "the same collapse must come again, from the state before it";
 }
 
-// Its settings cannot be changed, so that it fails again; but it can end with what it has, as the message says.
+// The settings of a resumed run cannot be changed, so it fails again; but it can end with what it has, as the message
+// says.
 TEST_F(StoppedByPhysics, ARunThatCrushedItsDisksCanEndThere) {
   write("press.toml", R"([box]
 width = 10.0

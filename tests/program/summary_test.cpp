@@ -1,4 +1,4 @@
-// The pressure of a summary, by hand: of which room and of which energy of motion it is.
+// The pressure in a summary, computed by hand: which area and which kinetic energy it refers to.
 #include "run/results/summary.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 namespace carom {
 namespace {
 
-// 10 x 10 with one disk of mass 2 at height 7.5; steps end at times that are exact.
+// A box of 10 x 10 with one disk of mass 2 at height 7.5; steps end at times that are exact in binary.
 Scene scene_with(const std::string& sides, const std::string& physics, const std::string& velocity) {
   return parse_scene("[box]\nwidth = 10.0\nheight = 10.0\n" + sides + "[physics]\n" + physics +
                          "[[disks]]\ncount = 1\npositions = [[5.0, 7.5]]\nvelocities = [" + velocity +
@@ -32,7 +32,7 @@ Summary summary_of(const Scene& scene) {
   return summarize(remembered, *engine, scene, choice);
 }
 
-// On its way at speed 4, then besides at speed 2 downwards, after a fall of 1 in a unit of time.
+// The disk moves at speed 4 along x, and after falling by 1 in a unit of time also at 2 downwards.
 TEST(Summary, ThePressureIsFromTheEnergyOfMotionHalfwayBetweenStartAndEnd) {
   const Summary s = summary_of(scene_with("", "gravity = 2.0\n", "[4.0, 0.0]"));
   EXPECT_EQ(s.counters.virial, 0.0);
@@ -41,22 +41,23 @@ TEST(Summary, ThePressureIsFromTheEnergyOfMotionHalfwayBetweenStartAndEnd) {
   EXPECT_DOUBLE_EQ(s.pressure, 18.0 / (10.0 * 10.0));
 }
 
-// The same fall from rest: nothing is known of the mean between 0 and 4.
+// The same fall from rest: the mean between 0 and 4 is unknown.
 TEST(Summary, ThereIsNoPressureWhereTheEnergyOfMotionChangesByMoreThanAQuarter) {
   EXPECT_TRUE(std::isnan(summary_of(scene_with("", "gravity = 2.0\n", "[0.0, 0.0]")).pressure));
   EXPECT_TRUE(std::isnan(summary_of(scene_with("", "gravity = 2.0\n", "[3.0, 0.0]")).pressure)) << "9 and 13";
 }
 
-// A disk that falls from rest by 7, at t = 0.66, and stays on the floor: it moved in between.
+// The disk falls from rest by 7, until t = 0.66, and stays on the floor: it is at rest at both ends, but moved in
+// between.
 TEST(Summary, ThereIsNoPressureOfAFallFromRestToRest) {
   const Summary s = summary_of(scene_with("wall_restitution = 0.0\n", "gravity = 32.0\n", "[0.0, 0.0]"));
   EXPECT_EQ(s.kinetic_final, 0.0);
   EXPECT_GT(s.counters.wall_collisions, 0U);
   EXPECT_TRUE(std::isnan(s.pressure)) << s.pressure;
-  EXPECT_EQ(summary_of(scene_with("", "", "[0.0, 0.0]")).pressure, 0.0) << "one that never moves presses on nothing";
+  EXPECT_EQ(summary_of(scene_with("", "", "[0.0, 0.0]")).pressure, 0.0) << "a disk that never moves has no pressure";
 }
 
-// A mean over no time is none.
+// There is no mean over a time of 0.
 TEST(Summary, ThereIsNoPressureOfNoTime) {
   Scene scene = scene_with("", "", "[1.0, 0.0]");
   scene.run.t_end = 0.0;
@@ -65,19 +66,19 @@ TEST(Summary, ThereIsNoPressureOfNoTime) {
   EXPECT_NE(table_text(s, "").find("no time has passed"), std::string::npos);
   scene = scene_with("", "", "[0.0, 0.0]");
   scene.run.t_end = 0.0;
-  EXPECT_EQ(summary_of(scene).pressure, 0.0) << "at rest";
+  EXPECT_EQ(summary_of(scene).pressure, 0.0) << "a disk at rest";
 }
 
-// The floor comes up by 2, by 1 of it halfway.
+// The floor rises by 2, and is at 1 halfway through the run.
 TEST(Summary, ThePressureIsThatOfTheRoomHalfwayWhereSidesMove) {
   const Summary s = summary_of(scene_with("bottom = { motion = { velocity = [0.0, 2.0] } }\n", "", "[1.0, 0.0]"));
   EXPECT_EQ(s.counters.wall_collisions, 0U);
   EXPECT_DOUBLE_EQ(s.pressure, 1.0 / (10.0 * 9.0));
 }
 
-// After two and a half periods, with the floor where it was and at its highest at half time: the room is not that of
-// half time, 10 (10 - 2 - 1), but that of its mean place, and of the half period that is left over that is 2 a / 3 of a
-// parabola and 2 a / pi of a sine.
+// After two and a half periods the floor is back in the middle, and at half time it is at its highest. The area is not
+// that at half time, 10 (10 - 2 - 1), but that of the mean place. In the half period that remains the mean displacement
+// is 2 a / 3 for a parabola and 2 a / pi for a sine.
 TEST(Summary, ThePressureIsThatOfTheMeanRoomWhereSidesVibrate) {
   const auto pressure_on = [](const std::string& shape) {
     const std::string floor =
@@ -90,7 +91,7 @@ TEST(Summary, ThePressureIsThatOfTheMeanRoomWhereSidesVibrate) {
   EXPECT_DOUBLE_EQ(pressure_on("sine"), 1.0 / (10.0 * (8.0 - 2.0 / std::numbers::pi / 5.0)));
 }
 
-// A scene tells velocities relative to the flow, which at height 7.5 has a speed of 1.25.
+// Velocities in a scene are relative to the flow, whose speed at height 7.5 is 1.25.
 TEST(Summary, ThePressureInAShearIsOfMotionRelativeToTheFlow) {
   const std::string sides =
       "left = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\nshear_rate = 0.5\n";
@@ -102,8 +103,7 @@ TEST(Summary, ThePressureInAShearIsOfMotionRelativeToTheFlow) {
   EXPECT_DOUBLE_EQ(summary_of(scene_with(sides, "", "[1.0, 0.0]")).pressure, 1.0 / (10.0 * 10.0));
 }
 
-// A disk that rises by 2 falls behind the flow by as much as that is faster there: by 1, and by 2 where it is twice as
-// fast.
+// A disk that rises by 2 falls behind the flow, which is faster there: by 1, or by 2 at twice the rate.
 TEST(Summary, ThePressureInAShearIsOfTheEnergyHalfwayBetweenStartAndEndAsElsewhere) {
   const auto rising = [](const std::string& rate) {
     return summary_of(

@@ -1,4 +1,4 @@
-// What a summary says, as JSON and as a table: each number under its own name.
+// A summary as JSON and as a table: each number under its own name.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -136,7 +136,7 @@ TEST(SummaryText, TheTableHasALineForWhatThereWas) {
   EXPECT_THAT(text, Not(HasSubstr("  pressure ")));
 }
 
-// In the mean of a step and a rank.
+// Traffic is the mean for a step and a rank.
 TEST(SummaryText, TrafficIsThatOfAStepAndARank) {
   Summary s = hundred_steps();
   s.engine.ranks = 2;

@@ -1,4 +1,4 @@
-// carom sweep and the files that its scene reads: a run counts as done while they give what it began with.
+// carom sweep and the files that its scene reads: a run counts as done while these files give what it began with.
 #include <filesystem>
 
 #include "tests/support/program_support.hpp"
@@ -59,13 +59,13 @@ TEST_F(SweepInputs, AFileThatHasChangedMakesAnotherSweep) {
       o.err,
       "carom: error: s: holds another sweep: p.csv has changed since run 0001 began; remove s/runs/0001 to run it "
       "again, choose another folder with -o, or replace it with --force\n");
-  EXPECT_EQ(table(), before) << "a refused sweep changes nothing";
+  EXPECT_EQ(table(), before) << "a refused sweep must change nothing";
   write("v.csv", others);
   EXPECT_THAT(sweep("--seeds 2").err, HasSubstr("p.csv and v.csv have changed since run 0001 began"));
   EXPECT_EQ(sweep("--emit parallel").status, 2);
   write("p.csv", three);
   write("v.csv", three);
-  EXPECT_THAT(sweep("--seeds 2").err, HasSubstr("2 of 4 runs are left")) << "as it was";
+  EXPECT_THAT(sweep("--seeds 2").err, HasSubstr("2 of 4 runs are left")) << "with the old files";
 
   write("p.csv", others);
   EXPECT_THAT(sweep("--force").err, HasSubstr("2 of 2 runs are left"));
@@ -88,10 +88,10 @@ TEST_F(SweepInputs, AFrameThatHasChangedMakesAnotherSweep) {
     EXPECT_THAT(carom(words).err, HasSubstr("s: holds another sweep: melt has changed since run 0001 began")) << change;
   }
   ASSERT_EQ(carom("run scene.toml -o melt --quiet --force --t-end 1.5").status, 0);
-  EXPECT_THAT(carom(words).err, HasSubstr("0 of 2 runs are left")) << "the third frame is what it was";
+  EXPECT_THAT(carom(words).err, HasSubstr("0 of 2 runs are left")) << "the third frame is unchanged";
 }
 
-// A run that was stopped would go on from what it began with.
+// A stopped run would go on from what it began with, so it must be checked.
 TEST_F(SweepInputs, ARunThatWasStoppedIsLookedAtToo) {
   const std::string words = "sweep scene.toml -o s --jobs 1 --over run.t_end=1e9,2e9";
   const Outcome o = shell("{ $C " + words +
@@ -102,7 +102,7 @@ TEST_F(SweepInputs, ARunThatWasStoppedIsLookedAtToo) {
   EXPECT_THAT(carom(words).err, HasSubstr("v.csv has changed since run 0001 began"));
 }
 
-// Not of the files, but of the run itself.
+// Here not a file has changed, but the run itself.
 TEST_F(SweepInputs, ARunThatIsNotWhatItWasIsNamed) {
   ASSERT_EQ(sweep("--set output.checkpoint=600").status, 0);
   ASSERT_EQ(carom("resume s/runs/0002 --t-end 2 --quiet").status, 0);
@@ -116,7 +116,7 @@ TEST_F(SweepInputs, ARunThatIsNotWhatItWasIsNamed) {
               HasSubstr("its run 0001 cannot be told: s/runs/0001/scene.toml: cannot be opened"));
 }
 
-// Another version of Carom may write a scene in other words, and leave out what had no key yet.
+// Another version of Carom may write a scene in other words, and without keys that did not exist yet.
 TEST_F(SweepInputs, TheSameSceneInOtherWordsIsTheSame) {
   ASSERT_EQ(sweep().status, 0);
   const std::string written = text_of(at("s/runs/0001/scene.toml"));
@@ -138,7 +138,7 @@ TEST_F(SweepInputs, RunsOfSeveralVersionsAreToldOf) {
                                      version + "\"\n"));
 }
 
-// The first run is at work while the file is made anew, and then killed: the second is to begin.
+// While the first run is at work the file is replaced; then that run is killed, and the second is about to start.
 TEST_F(SweepInputs, AChangeWhileTheSweepGoesOnIsSeen) {
   for (const std::string change : {"printf '1,2\\n5,6\\n8,8\\n' > p.csv", "printf '[box' > scene.toml"}) {
     const Outcome o = shell(
@@ -152,7 +152,7 @@ TEST_F(SweepInputs, AChangeWhileTheSweepGoesOnIsSeen) {
   }
 }
 
-// Nor is there a moment between looking and reading in which a run could begin with something else unseen.
+// There must be no moment between the check and the reading of the files in which a change would go unnoticed.
 TEST_F(LongSweepInputs, EveryRowIsOfTheFileAsItWas) {
   write("a.csv", three);
   write("b.csv", others);
@@ -168,7 +168,7 @@ TEST_F(LongSweepInputs, EveryRowIsOfTheFileAsItWas) {
   EXPECT_THAT(o.err, HasSubstr("has changed since the sweep began"));
 }
 
-// Not even to the superuser, who has no leave to write everywhere then.
+// Not even the superuser may write there: that right is taken away here.
 TEST_F(SweepInputs, AFolderThatCannotBeWrittenIsRefused) {
   ASSERT_EQ(carom("sweep scene.toml -o s --seeds 1").status, 0);
   const Outcome o = shell(

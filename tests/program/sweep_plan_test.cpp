@@ -1,4 +1,4 @@
-// What --over says, and what a sweep makes of it: values, runs and their names.
+// The syntax of --over, and the plan of a sweep: values, runs and their names.
 #include "app/sweep/sweep_plan.hpp"
 
 #include <gmock/gmock.h>
@@ -20,7 +20,7 @@ std::vector<std::string> values(const std::string& text) {
   return parse_sweep_axis("key=" + text).values;
 }
 
-// What work() ends with; empty if all is well.
+// The error of work(); empty if there is none.
 template <class Work>
 std::string complaint_of(Work&& work) {
   try {
@@ -56,7 +56,7 @@ TEST(SweepPlan, RangesHaveBothEndsAndNumbersAsOneWouldWriteThem) {
   EXPECT_THAT(values("2.5:2.5:1"), ElementsAre("2.5"));
 }
 
-// Numbers below 2.2e-308, of which there are fewer digits, are numbers; the sweep ended with "error: stod".
+// Numbers below 2.2e-308, which have fewer digits, are numbers; a sweep over them once ended with "error: stod".
 TEST(SweepPlan, TheSmallestAndTheLargestNumbersAreNumbers) {
   EXPECT_THAT(values("0:1e-310:2"), ElementsAre("0", "1e-310"));
   EXPECT_THAT(values("1e-310,1e-309"), ElementsAre("1e-310", "1e-309"));
@@ -74,7 +74,7 @@ TEST(SweepPlan, CommasWithinBracketsAndQuotesPartNoValues) {
   EXPECT_EQ(parse_sweep_axis("disks.0.count=1,2").key, "disks.0.count");
 }
 
-// Nor are they a range where colons stand in them: a name of a file may have some.
+// Values in quotes that contain colons, such as file names, make no range.
 TEST(SweepPlan, ColonsWithinQuotesMakeNoRange) {
   EXPECT_THAT(values("\"a:b:c\""), ElementsAre("\"a:b:c\""));
   EXPECT_THAT(values("\"0:1:3\",'4:5'"), ElementsAre("\"0:1:3\"", "'4:5'"));
@@ -85,7 +85,8 @@ TEST(SweepPlan, ColonsWithinQuotesMakeNoRange) {
 TEST(SweepPlan, AQuoteAfterABackslashEndsNoString) {
   EXPECT_THAT(values(R"("a\"b,c",2)"), ElementsAre(R"("a\"b,c")", "2"));
   EXPECT_THAT(values(R"("a\\",2)"), ElementsAre(R"("a\\")", "2"));
-  EXPECT_THAT(values(R"('a\',2)"), ElementsAre(R"('a\')", "2")) << "single quotes know no backslash";
+  EXPECT_THAT(values(R"('a\',2)"), ElementsAre(R"('a\')", "2"))
+      << "within single quotes a backslash is an ordinary character";
 }
 
 TEST(SweepPlan, SaysWhatIsNoRangeAndNoList) {
@@ -104,7 +105,7 @@ TEST(SweepPlan, SaysWhatIsNoRangeAndNoList) {
   }
 }
 
-// Both would be one run under two names, and each call of the same sweep would run the second of them anew.
+// Both values would be the same run under two names, and each call of the sweep would run the second of them again.
 TEST(SweepPlan, AValueIsNotGivenTwice) {
   EXPECT_EQ(
       complaint("key=0.5,1,0.50"),
@@ -152,7 +153,7 @@ TEST(SweepPlan, RunsKeepTheirNamesAndNewOnesAreNumberedOn) {
   EXPECT_EQ(take_names(plan, scene, more), "");
   EXPECT_THAT(names(more), ElementsAre("0005", "0006", "0001", "0002", "0003", "0004"));
   plan = sweep_identity(scene, more);
-  // The last number is not that of the last line.
+  // The last number need not be in the last line.
   std::vector<SweepRun> most = runs_over({"a=0.5,1,2"}, 1, 3);
   EXPECT_EQ(take_names(plan, scene, most), "");
   EXPECT_THAT(names(most), ElementsAre("0005", "0006", "0007", "0001", "0002", "0008", "0003", "0004", "0009"));

@@ -1,5 +1,5 @@
-// sweep.csv: heat, work, what each sink took and what an analysis measured have columns where a run has them. A sweep
-// over the speed of a piston told of no work.
+// sweep.csv: heat, work, the disks taken by each sink, and means of an analysis have columns if runs have them. A sweep
+// over the speed of a piston once showed no work.
 #include "app/sweep/sweep_table.hpp"
 
 #include <gmock/gmock.h>
@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What follows the hash, line by line.
+// The part of each line after the hash.
 std::vector<std::string> ends(const std::vector<SweepRow>& rows) {
   std::vector<std::string> found;
   std::istringstream text(sweep_table({SweepAxis{"seed_of_run", {}}}, rows));

@@ -1,4 +1,4 @@
-// carom sweep: the grid, the table, going on, scripts, complaints.
+// carom sweep: the grid, the table, continuation, scripts, errors.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -44,12 +44,12 @@ class SweepTest : public testing::Test {
     for (std::string line; std::getline(text, line);) lines.push_back(line);
     return lines;
   }
-  // Of a script for GNU parallel.
+  // The number of commands in a script for GNU parallel.
   long commands_in(const std::string& script) const {
     const std::vector<std::string> lines = rows(script);
     return std::count_if(lines.begin(), lines.end(), [](const std::string& line) { return line.starts_with('\''); });
   }
-  // Without the seconds that it took, which differ from run to run.
+  // A row without the seconds taken, which differ from run to run.
   static std::string without_time(const std::string& row) {
     const std::size_t hash = row.rfind(',');
     return row.substr(0, row.rfind(',', hash - 1)) + row.substr(hash);
@@ -65,14 +65,14 @@ TEST_F(SweepTest, RunsTheGridAndGoesOnWhereItStopped) {
   const auto [status, text] = carom(words + " --jobs 3");
   ASSERT_EQ(status, 0) << text;
   EXPECT_THAT(text, HasSubstr("12 of 12 runs are left, 3 at once"));
-  EXPECT_FALSE(fs::exists(folder_.path() / "s/runs/0001.log")) << "of runs that have not failed";
+  EXPECT_FALSE(fs::exists(folder_.path() / "s/runs/0001.log")) << "only failed runs keep a log";
   const std::vector<std::string> table = rows("s/sweep.csv");
   ASSERT_EQ(table.size(), 13U);
   EXPECT_THAT(table[0], testing::StartsWith("run,physics.restitution,disks.0.count,seed,particles,steps,time"));
   EXPECT_THAT(table[1], testing::StartsWith("0001,0.5,10,3,10,"));
   EXPECT_THAT(table[6], testing::StartsWith("0006,0.75,10,4,10,"));
   EXPECT_THAT(table[12], testing::StartsWith("0012,1,20,4,20,"));
-  // One of them by hand has the same hash.
+  // One of the runs, done by hand, has the same hash.
   EXPECT_EQ(carom("run gas.toml -o hand --quiet --seed 4 --set physics.restitution=0.75 --set disks.0.count=10").first,
             0);
   const std::string hash = table[6].substr(table[6].rfind(',') + 1);
@@ -80,10 +80,10 @@ TEST_F(SweepTest, RunsTheGridAndGoesOnWhereItStopped) {
 
   fs::remove(folder_.path() / "s/runs/0005/summary.json");
   fs::remove(folder_.path() / "s/sweep.csv");
-  folder_.write("s/runs/0002.log", "");  // as after a kill of the sweep, which its run outlived
+  folder_.write("s/runs/0002.log", "");  // as if the sweep had been killed and its run had outlived it
   const std::string kept = read("s/runs/0007/summary.json");
   EXPECT_THAT(carom(words).second, HasSubstr("1 of 12 runs are left"));
-  EXPECT_EQ(read("s/runs/0007/summary.json"), kept) << "was run again";
+  EXPECT_EQ(read("s/runs/0007/summary.json"), kept) << "this run must not be repeated";
   EXPECT_FALSE(fs::exists(folder_.path() / "s/runs/0002.log"));
   const std::vector<std::string> again = rows("s/sweep.csv");
   ASSERT_EQ(again.size(), table.size());
@@ -92,16 +92,17 @@ TEST_F(SweepTest, RunsTheGridAndGoesOnWhereItStopped) {
   const auto [other_status, other] = carom("sweep gas.toml -o s --seeds 3");
   EXPECT_EQ(other_status, 2);
   EXPECT_THAT(other, HasSubstr("holds another sweep"));
-  EXPECT_EQ(rows("s/sweep.csv"), again) << "a refused sweep changes nothing";
+  EXPECT_EQ(rows("s/sweep.csv"), again) << "a refused sweep must change nothing";
   EXPECT_EQ(carom("sweep gas.toml -o s --seeds 3 --force --emit parallel").first, 0);
-  EXPECT_FALSE(fs::exists(folder_.path() / "s/sweep.csv")) << "of the sweep that was replaced";
+  EXPECT_FALSE(fs::exists(folder_.path() / "s/sweep.csv")) << "the table of the replaced sweep must be gone";
   EXPECT_THAT(carom("sweep gas.toml -o s --seeds 3").second, HasSubstr("3 of 3 runs are left"));
   const std::vector<std::string> replaced = rows("s/sweep.csv");
   ASSERT_EQ(replaced.size(), 4U);
-  EXPECT_THAT(replaced[1], testing::StartsWith("0001,3,20,")) << "twenty disks, not the ten of the run of this name";
+  EXPECT_THAT(replaced[1], testing::StartsWith("0001,3,20,"))
+      << "twenty disks, not ten as in the earlier run of this name";
 }
 
-// Of a run whose energy changed much there is no pressure; and a name in quotes has them in the table.
+// A run whose energy changed much has no pressure; and a value in quotes keeps them in the table.
 TEST_F(SweepTest, ItsTableIsOneForOtherPrograms) {
   const auto [status, text] = carom(
       "sweep gas.toml --over 'run.method=\"exact\",pairwise' --set run.dt=0.01 --set physics.restitution=0.5 "
@@ -140,7 +141,7 @@ TEST_F(SweepTest, ListsAreValues) {
   EXPECT_THAT(read("hand/summary.json"), HasSubstr(table[3].substr(table[3].rfind(',') + 1)));
 }
 
-// More seeds and values: what is there stays, with its names, and only the rest is run.
+// With more seeds and values existing runs stay, under their names, and only new ones are run.
 TEST_F(SweepTest, GrowsWithoutLosingWhatIsThere) {
   ASSERT_EQ(carom("sweep gas.toml -o s --over physics.restitution=0.5,1.0 --seeds 2").first, 0);
   const std::vector<std::string> before = rows("s/sweep.csv");
@@ -152,13 +153,13 @@ TEST_F(SweepTest, GrowsWithoutLosingWhatIsThere) {
   const std::vector<std::string> after = rows("s/sweep.csv");
   ASSERT_EQ(after.size(), 10U);
   for (const std::size_t k : {1U, 2U}) EXPECT_THAT(after, testing::Contains(before[k]));
-  EXPECT_THAT(after[7], testing::StartsWith("0003,1,3,20,")) << "1.0 before, and 1 now";
+  EXPECT_THAT(after[7], testing::StartsWith("0003,1,3,20,")) << "the value was 1.0 before, and is 1 now";
   EXPECT_THAT(after[3], testing::StartsWith("0005,0.5,5,20,"));
   EXPECT_THAT(after[9], testing::StartsWith("0009,1,5,20,"));
   EXPECT_THAT(carom("sweep gas.toml -o s --over physics.restitution=0.5:1.0:3 --seeds 3").second,
               HasSubstr("0 of 9 runs are left"));
 
-  // Less, or another scene, is another sweep.
+  // With fewer values, or another scene, it is another sweep.
   const auto [less_status, less] = carom("sweep gas.toml -o s --over physics.restitution=0.5,1.0 --seeds 2");
   EXPECT_EQ(less_status, 2);
   EXPECT_THAT(less, HasSubstr("s: holds another sweep: this one lacks its run physics.restitution="));
@@ -169,7 +170,7 @@ TEST_F(SweepTest, GrowsWithoutLosingWhatIsThere) {
               HasSubstr("s: holds another sweep: the scene has changed since; "));
 }
 
-// As by a limit of processor time: the sweep said nothing, and ended as if all had run.
+// A run may be stopped by a limit of processor time: the sweep once reported nothing, and ended as if all had run.
 TEST_F(SweepTest, ARunThatIsStoppedByAnotherIsNamed) {
   const auto [status, text] = shell(
       "{ " CAROM_PROGRAM
@@ -180,7 +181,7 @@ TEST_F(SweepTest, ARunThatIsStoppedByAnotherIsNamed) {
   EXPECT_THAT(text, HasSubstr("run 0001: was stopped from outside; the same command goes on with it"));
 }
 
-// A sweep that is killed takes its runs with it, and they leave checkpoints. Until then the folder is its own.
+// A sweep that is killed stops its runs, which write checkpoints. Until then the folder stays locked.
 TEST_F(SweepTest, ItsRunsEndWithIt) {
   const pid_t sweep = fork();
   if (sweep == 0) {
@@ -196,7 +197,8 @@ TEST_F(SweepTest, ItsRunsEndWithIt) {
   const auto [status, text] = carom("sweep gas.toml -o s --seeds 2 --force");
   EXPECT_EQ(status, 2);
   EXPECT_THAT(text, HasSubstr("s: another sweep is running there; expected a folder of its own (-o)"));
-  // SIGUSR1 is for a checkpoint of each run, which goes on, to the next one: another file, as the earlier one is kept.
+  // SIGUSR1 makes each run write a checkpoint and go on. The next checkpoint is another file, as the previous one is
+  // kept.
   const auto file_of = [&](const char* run) {
     struct stat found {};
     return stat((checkpoint(run) / "checkpoint.carom").c_str(), &found) == 0 ? found.st_ino : 0;
@@ -211,7 +213,7 @@ TEST_F(SweepTest, ItsRunsEndWithIt) {
   }
   kill(sweep, SIGKILL);
   waitpid(sweep, nullptr, 0);
-  // Their locks go with them.
+  // The locks of the runs are released.
   for (const char* const run : {"0001", "0002"}) {
     const int lock = open((checkpoint(run) / "lock").c_str(), O_RDONLY | O_CLOEXEC);
     ASSERT_GE(lock, 0);
@@ -227,11 +229,11 @@ TEST_F(SweepTest, ItsRunsEndWithIt) {
   }
 }
 
-// As under a program that leaves the ends of its children to the system.
+// As if started by a program that leaves the ends of its children to the system.
 TEST_F(SweepTest, SeesItsRunsEndWhereverItWasStarted) {
   const pid_t sweep = fork();
   if (sweep == 0) {
-    constexpr unsigned patience = 100;  // seconds, after which it ends by SIGALRM
+    constexpr unsigned patience = 100;  // seconds; then SIGALRM ends it
     alarm(patience);
     std::signal(SIGCHLD, SIG_IGN);
     if (chdir(folder_.path().c_str()) == 0) {
@@ -264,12 +266,12 @@ TEST_F(SweepTest, ScriptsRunWhatIsLeft) {
   EXPECT_THAT(read("a b/sweep.sbatch"), HasSubstr("#SBATCH --array=1-1\n"));
   run_task(1);
   EXPECT_THAT(carom(words + " --emit slurm").second, HasSubstr("0 of 2 runs are left"))
-      << "nothing to write a script for";
+      << "there is no run for a script";
   EXPECT_EQ(rows("a b/sweep.csv").size(), 3U);
   EXPECT_THAT(carom(words).second, HasSubstr("0 of 2 runs are left"));
 }
 
-// With a stand-in for GNU parallel, which gives each line to a shell.
+// A stand-in for GNU parallel gives each line to a shell.
 TEST_F(SweepTest, AScriptForParallelRunsEachLine) {
   fs::create_directory(folder_.path() / "bin");
   folder_.write("bin/parallel", "#!/bin/sh\nwhile read -r line; do sh -c \"$line\" </dev/null || exit 1; done\n");
@@ -279,7 +281,7 @@ TEST_F(SweepTest, AScriptForParallelRunsEachLine) {
   EXPECT_THAT(read("it's/sweep.sh"), HasSubstr("--jobs 100% \"$@\""));
   const auto [status, text] = shell("PATH=$PWD/bin:$PATH sh \"it's/sweep.sh\"");
   EXPECT_EQ(status, 0) << text;
-  EXPECT_THAT(read("it's/runs/0001/summary.json"), HasSubstr("\"threads\": 1")) << "there is another on each core";
+  EXPECT_THAT(read("it's/runs/0001/summary.json"), HasSubstr("\"threads\": 1")) << "there is another run on each core";
   EXPECT_THAT(carom(words).second, HasSubstr("0 of 2 runs are left"));
   EXPECT_EQ(carom(words + " --seeds 2 --emit parallel --ranks 2").first, 0);
   EXPECT_THAT(read("it's/sweep.sh"), HasSubstr("--jobs 50% \"$@\""));
@@ -330,12 +332,12 @@ TEST_F(SweepTest, AFolderOfOtherFilesIsNotItsOwn) {
 }
 
 TEST_F(SweepTest, AFullDiskCostsNoPlan) {
-  // Not one byte can be written.
+  // Not a single byte can be written.
   const std::string full = "ulimit -f 0; " CAROM_PROGRAM " sweep gas.toml -o grid --over ";
   const auto begun = shell(full + "physics.restitution=0.5,1");
   EXPECT_EQ(begun.first, 1);
   EXPECT_THAT(begun.second, HasSubstr("cannot write grid/sweep.txt.new: File too large"));
-  ASSERT_EQ(carom("sweep gas.toml -o grid --over physics.restitution=0.5,1").first, 0) << "the folder can be used";
+  ASSERT_EQ(carom("sweep gas.toml -o grid --over physics.restitution=0.5,1").first, 0) << "the folder must be usable";
   const std::string plan = read("grid/sweep.txt");
   EXPECT_EQ(shell(full + "physics.restitution=0.5,1,0.7").first, 1);
   EXPECT_EQ(read("grid/sweep.txt"), plan);
@@ -344,7 +346,7 @@ TEST_F(SweepTest, AFullDiskCostsNoPlan) {
 }
 
 TEST_F(SweepTest, AFailedRunIsNamedAndTriedAgain) {
-  // 250 of these disks find no room.
+  // There is no room for 250 of these disks.
   const auto [status, text] = carom("sweep gas.toml -o s --over disks.0.count=10,250");
   EXPECT_EQ(status, 1);
   EXPECT_THAT(text,
@@ -353,7 +355,7 @@ TEST_F(SweepTest, AFailedRunIsNamedAndTriedAgain) {
   EXPECT_THAT(carom("sweep gas.toml -o s --over disks.0.count=10,250").second, HasSubstr("1 of 2 runs are left"));
 }
 
-// One that left no word, as where the machine had no memory for it.
+// A run that wrote no message, as when the machine has no memory for it.
 TEST_F(SweepTest, ARunThatIsKilledIsNamedByItsStatus) {
   const auto [status, text] =
       shell("{ " CAROM_PROGRAM
@@ -364,8 +366,8 @@ TEST_F(SweepTest, ARunThatIsKilledIsNamedByItsStatus) {
   EXPECT_THAT(text, HasSubstr("carom: warning: run 0002: ended with status 137\n"));
 }
 
-// A sweep that is stopped stops its runs and begins no other; the one that was running is resumed from where it was.
-// SIGUSR1 has that write a checkpoint, and it goes on.
+// A sweep that is stopped stops its runs and starts no other; the run that was going on is later resumed from where it
+// was. After SIGUSR1 that run writes a checkpoint, and the sweep goes on.
 TEST_F(SweepTest, StoppedItTakesItsRunsWithItAndGoesOnFromTheirCheckpoints) {
   const std::string words = "sweep gas.toml -o s --set physics.restitution=1 --over run.t_end=1,1e9,2e9 --jobs 1";
   const auto [status, text] =
@@ -379,11 +381,11 @@ TEST_F(SweepTest, StoppedItTakesItsRunsWithItAndGoesOnFromTheirCheckpoints) {
   EXPECT_EQ(carom(words + " --emit parallel").first, 0);
   EXPECT_THAT(read("s/sweep.sh"), HasSubstr("'resume'"));
   EXPECT_FALSE(fs::exists(folder_.path() / "s/runs/0003"));
-  // No process writes to the folder any more: otherwise it would be refused with status 2.
+  // No process may be writing to the folder any more; otherwise resuming would be refused with status 2.
   EXPECT_EQ(carom("resume s/runs/0002 --quiet --max-walltime 0.01").first, 4);
 }
 
-// What a run warns of is not lost among the rows.
+// Warnings of runs are counted in the table.
 TEST_F(SweepTest, WarningsAreCounted) {
   const auto [status, text] =
       carom("sweep gas.toml -o s --method pairwise --dt 0.05 --over disks.0.velocities.maxwell=1,1e4,2e4");

@@ -1,4 +1,4 @@
-// carom view: one page from a run, finished or not, of any format; bad input leaves nothing behind.
+// carom view: one page from a run, finished or not, in any format; with bad input no file is left behind.
 #include <cmath>
 
 #include "tests/support/program_support.hpp"
@@ -32,7 +32,7 @@ trajectory = "xyz"
 series = true
 )";
 
-// What the page reads first.
+// The data that the page reads first.
 nlohmann::json head_of(const std::string& page) {
   const std::string begin = "<script type=\"application/json\" id=\"head\">";
   const std::size_t at = page.find(begin) + begin.size();
@@ -58,12 +58,12 @@ TEST_F(View, MakesOnePageThatCostsLittleMoreThanTwoBytesADiskAndFrame) {
   const std::string page = text_of(at("out/view.html"));
   EXPECT_THAT(page, StartsWith("<!doctype html>"));
   EXPECT_THAT(page, HasSubstr("<title>a gas &lt;of disks&gt;</title>"));
-  const std::size_t program = 64'000;  // bytes of the page without a run
+  const std::size_t program = 64'000;  // bytes of a page without a run
   EXPECT_LT(page.size(), program + static_cast<std::size_t>(2.5 * 101 * 1000));
   EXPECT_NEAR(head_of(page)["fast"], 2.5 * std::sqrt(2.0), 0.6) << "2.5 root mean squares of the speeds, all but those "
                                                                    "of disks that collided between two frames";
   EXPECT_EQ(carom("view out --quiet --force").err, "");
-  EXPECT_EQ(text_of(at("out/view.html")), page) << "the same run, the same bytes";
+  EXPECT_EQ(text_of(at("out/view.html")), page) << "the same run must give the same bytes";
 }
 
 TEST_F(View, BothFormatsOfATrajectoryMakeTheSamePage) {
@@ -96,7 +96,7 @@ TEST_F(View, WhereItCannotBeWrittenIsSaidBeforehand) {
                          ": cannot be written: Not a directory; expected a file in another folder (-o)\n");
   }
   EXPECT_EQ(text_of(at("file")), "mine");
-  EXPECT_EQ(carom("view out -o new/folder/page.html --quiet").status, 0) << "folders that are missing are made";
+  EXPECT_EQ(carom("view out -o new/folder/page.html --quiet").status, 0) << "missing folders must be made";
   EXPECT_THAT(text_of(at("new/folder/page.html")), StartsWith("<!doctype html>"));
 }
 
@@ -198,7 +198,8 @@ TEST_F(View, ASceneCanAskForIt) {
   ASSERT_EQ(carom("view out -o same.html").status, 0);
   EXPECT_EQ(text_of(at("same.html")), page);
   EXPECT_THAT(text_of(at("out/scene.toml")), HasSubstr("\nview = true\n"));
-  // A result as the others: not replaced, unless told; a run without it leaves no page of an earlier one.
+  // The page is a result like others: it is only replaced on request, and a run without it leaves no page of an earlier
+  // run.
   fs::create_directories(at("old"));
   write("old/view.html", "an older run");
   const Outcome o = carom("run gas.toml -o old --t-end 0.1");
@@ -229,7 +230,8 @@ TEST_F(View, APageOfARunThatStoppedStaysWhenItHasGoneOn) {
 
 TEST_F(View, APageThatFailsCostsTheRunNothingElse) {
   const std::string small = "run gas.toml -o out --t-end 0.2 --set output.view=true --set disks.0.count=20";
-  const Outcome lost = shell("ulimit -f 100; $C " + small + " --quiet");  // blocks of 512 bytes: less than any page has
+  const Outcome lost =
+      shell("ulimit -f 100; $C " + small + " --quiet");  // blocks of 512 bytes, fewer than any page has
   EXPECT_EQ(lost.status, 1);
   EXPECT_THAT(lost.err, HasSubstr("carom: error: view.html could not be made: "));
   EXPECT_THAT(lost.err, HasSubstr("; all else of the run is in out; carom view out makes the page\n"));
@@ -255,7 +257,7 @@ TEST_F(View, CheckSaysWhatItCosts) {
   EXPECT_NEAR(said["files_bytes"].value("view.html", 0.0), size, 0.3 * size);
 }
 
-// The results of an earlier run stay until the one that takes their place is done.
+// The results of an earlier run stay until the run that replaces it is done.
 TEST_F(View, TellsOfARunInThePlaceOfAnEarlierOne) {
   run("-o out --t-end 0.2");
   const pid_t next = start({"run", "gas.toml", "--quiet", "--force", "-o", "out", "--t-end", "1e9"});
@@ -278,11 +280,12 @@ TEST_F(View, ARunCanEndWithIt) {
   fs::permissions(at("bin/xdg-open"), fs::perms::owner_all);
   const Outcome o = shell("PATH=bin:$PATH $C run gas.toml -o out --t-end 0.2 --view --json");
   ASSERT_EQ(o.status, 0) << o.err;
-  EXPECT_THAT(o.out, StartsWith("{")) << "nothing but the summary";
+  EXPECT_THAT(o.out, StartsWith("{")) << "the output must be the summary alone";
   EXPECT_THAT(o.out, testing::EndsWith("}\n"));
   EXPECT_THAT(text_of(at("out/view.html")), StartsWith("<!doctype html>"));
   EXPECT_EQ(text_of(at("opened")), fs::canonical(at("out/view.html")).string() + "\n");
-  // Without a browser: whether the page is made for this option alone or for the scene too, the option is named.
+  // There is no browser. Whether the page is made only for this option or for the scene as well, the message names the
+  // option.
   for (const std::string asked : {"", " --set output.view=true"}) {
     const std::string again = "PATH=/nowhere $C run gas.toml -o out --force --t-end 0.2 --view" + asked;
     EXPECT_THAT(shell(again).err, HasSubstr("warning: --view: there is no xdg-open; open the page"));
