@@ -1,5 +1,5 @@
-// What ranks know of pairs whose disks have left their slabs, held against a look at all disks: how far they have left
-// them, who is at a border, whether pairs are of neighbours, and what is measured of pairs by distance and of psi6.
+// Disks that have left their slabs, as known to the ranks, compared with a look at all disks: how far they have left,
+// which are at a border, whether all pairs are of neighbouring ranks, and pair distances and psi6.
 #include "parallel/slabs/border_disks.hpp"
 
 #include <gtest/gtest.h>
@@ -27,9 +27,9 @@ constexpr double width = 40.0, height = 60.0;
 
 enum class Way { up, down, both };
 
-// Disks, in some gases more of them below than above, that were shared out among slabs, of which the second is the
-// thinnest, and have moved since, every fourth one far. Where they have gone both ways, two have come as near to each
-// other across the second slab as any may.
+// Disks were divided among slabs, the second of which is the thinnest, and have moved since, every fourth one far; in
+// some gases the lower part is denser. If they moved both ways, two disks are as close to each other across the second
+// slab as is possible.
 struct Gas {
   Gas(bool periodic, Way way, double furthest, std::uint64_t seed)
       : box(test::box_of(width, height, periodic ? test::Periodic::both : test::Periodic::x)) {
@@ -68,7 +68,7 @@ struct Gas {
   double distance(std::size_t i, std::size_t k) const {
     return std::sqrt(nearest_distance2({all.x[i] - all.x[k], all.y[i] - all.y[k]}, box));
   }
-  // How far the disk that is furthest from its slab is from it, through the sides of a periodic box.
+  // The largest distance of a disk from its slab, across the sides of a periodic box.
   double excursion() const {
     double furthest = 0.0;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -80,7 +80,7 @@ struct Gas {
     }
     return furthest;
   }
-  // Of two disks whose ranks are neither the same nor neighbours; length.
+  // The least distance of two disks whose ranks are neither the same nor neighbours; length.
   double least_distance_of_strangers() const {
     double least = HUGE_VAL;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -98,7 +98,7 @@ struct Gas {
   std::vector<int> owner;
 };
 
-// Gases in boxes with walls and periodic ones, on three and four ranks.
+// Calls see() for gases in boxes with walls and periodic ones, on three and four ranks.
 void for_gases(const std::function<void(const Gas&, std::uint64_t)>& see) {
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     for (const bool periodic : {false, true}) {
@@ -122,19 +122,20 @@ TEST(ExcursionOverRanks, IsThatOfTheDiskFurthestFromItsSlab) {
   });
 }
 
-// Times that each disk is among some.
+// How often each disk occurs among these.
 std::vector<int> times_in(const Disks& some) {
   std::vector<int> times(disks + 2, 0);
   for (const DiskId id : some.id) ++times[id];
   return times;
 }
 
-// Every pair of two neighbours within reach, on both ranks; and no disk that is too deep in its slab for one.
+// All pairs of two neighbours within reach are found, on both ranks, and no disk that is too deep in its slab for a
+// pair.
 TEST(DisksAtBorders, AreThoseOfAllPairsOfNeighbours) {
   std::atomic<int> pairs = 0;
   for_gases([&](const Gas& gas, std::uint64_t seed) {
     const double reach = 0.3 * static_cast<double>(seed), excursion = gas.excursion();
-    // Each of three ranks in a periodic box is a neighbour of the others; further apart, they may meet across the
+    // In a periodic box each of three ranks is a neighbour of both others, so distant disks may also meet across the
     // third.
     const bool all_are_neighbours = gas.are_neighbours(0, 2);
     const double across_border = all_are_neighbours ? gas.cut.thinnest() - 2.0 * excursion : HUGE_VAL;
@@ -173,7 +174,7 @@ TEST(IsWithinNeighbours, UnlessTwoDisksOfOtherRanksMayBeInReach) {
   });
 }
 
-// Ranks tell what is right or that they cannot tell; they can where all pairs within reach are of neighbours.
+// The ranks give the right result or say that they cannot; they can if all pairs within reach are of neighbours.
 TEST(PairsOverRanks, AreThoseOfAllDisksOrNotKnown) {
   std::atomic<int> known = 0, unknown = 0;
   for_gases([&](const Gas& gas, std::uint64_t seed) {
@@ -196,7 +197,7 @@ TEST(PairsOverRanks, AreThoseOfAllDisksOrNotKnown) {
   EXPECT_GT(unknown, 100);
 }
 
-// Either all ranks can tell or none.
+// Either all ranks know the result or none does.
 TEST(OrdersOverRanks, AreThoseOfAllDisksOrNotKnown) {
   int known = 0, unknown = 0;
   for_gases([&](const Gas& gas, std::uint64_t) {
@@ -218,7 +219,7 @@ TEST(OrdersOverRanks, AreThoseOfAllDisksOrNotKnown) {
   EXPECT_GT(unknown, 40);
 }
 
-// Disks of a rank by where they are.
+// The disks of a rank by their places.
 Disks those_of(const Disks& all, const SlabCut& cut, int rank) {
   Disks own;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -236,7 +237,7 @@ void expect_orders(const std::optional<Disks>& found, const std::vector<Vec2>& e
 }
 
 // Two crowds, and between them one disk at the border of two slabs, whose neighbours are on both sides and further away
-// than those of an even gas: ranks look again, and six that its rank knows meanwhile are no answer.
+// than in a uniform gas. The ranks must search again: the six neighbours that its own rank knows are not the nearest.
 TEST(OrdersOverRanks, AreThoseOfAllDisksWhereNeighboursAreFar) {
   const Domain box = test::box_of(width, height, test::Periodic::x);
   const SlabCut cut{{0.0, 30.0, height}};
@@ -256,7 +257,7 @@ TEST(OrdersOverRanks, AreThoseOfAllDisksWhereNeighboursAreFar) {
   }
 }
 
-// Of all disks together seven are needed, however few each rank has.
+// Seven disks in all are enough, however few each rank has.
 TEST(OrdersOverRanks, NeedSevenDisksOfAllRanks) {
   const Domain box = test::box_of(width, height, test::Periodic::x);
   const SlabCut cut{{0.0, 0.5 * height, height}};
@@ -286,11 +287,11 @@ TEST(OrdersOverRanks, NeedSevenDisksOfAllRanks) {
   });
 }
 
-// Known as far as their own distances reach, whether or not g(r) is asked for.
+// These pairs are known up to their own distances, whether or not g(r) is wanted.
 TEST(BondPairsOverRanks, AreThoseOfAllDisksOrNotKnown) {
   std::atomic<int> known = 0, unknown = 0;
   for_gases([&](const Gas& gas, std::uint64_t seed) {
-    if (seed % 3 != 0) return;  // a third is enough, on three and four ranks
+    if (seed % 3 != 0) return;  // a third of the cases is enough, on three and four ranks
     AnalysisPlan plan;
     plan.wanted[static_cast<std::size_t>(Quantity::bond_correlation)] = true;
     plan.bonds = {2.0 + static_cast<double>(seed), 30};

@@ -1,4 +1,4 @@
-// Contacts in order over several ranks: each value is what the serial order makes of it, forward and back.
+// Contacts resolved in order over several ranks: each value is that of the serial order, forwards and backwards.
 #include "parallel/slabs/border_rounds.hpp"
 
 #include <gtest/gtest.h>
@@ -16,17 +16,18 @@
 namespace carom {
 namespace {
 
-// Disks on a square lattice, each in contact with the four next to it and two across; slabs are some of its rows each.
+// Disks on a square lattice, each in contact with its four nearest and two diagonal neighbours; each slab has some of
+// the rows.
 struct Lattice {
   int columns, rows;
-  bool periodic;  // from the last row to the first
+  bool periodic;  // the last row touches the first
   std::vector<DiskId> id;
 
   int place(int column, int row) const { return row * columns + column; }
   int row_of(int at) const { return at / columns; }
   int rank_of(int at, int ranks) const { return row_of(at) * ranks / rows; }
 
-  // In order of ids, the smaller one first.
+  // In order of ids, with the smaller id first.
   std::vector<std::pair<int, int>> contacts() const {
     std::vector<std::pair<int, int>> pairs;
     const auto add = [&](int a, int column, int row) {
@@ -59,7 +60,7 @@ Lattice with_random_ids(int columns, int rows, bool periodic, unsigned seed) {
   return lattice;
 }
 
-// What a contact does to its disks: nothing that would come out the same in another order.
+// A contact changes its disks in a way whose result depends on the order.
 void meet(Vec2& a, Vec2& b) {
   const Vec2 before = a;
   a = {0.3 * a.x + 0.6 * b.y, 0.9 * b.x - 0.1 * a.y};
@@ -84,7 +85,7 @@ std::vector<Vec2> serially(const Lattice& lattice) {
   return v;
 }
 
-// A rank's disks and contacts.
+// The disks and contacts of a rank.
 struct Part {
   Disks disks;
   GhostDisks ghosts;
@@ -118,7 +119,7 @@ struct Part {
   }
 };
 
-// Returns how many rounds there are across borders.
+// Returns the number of rounds across borders.
 std::uint32_t expect_serial_values(const Lattice& lattice, int count, int threads) {
   const std::vector<Vec2> expected = serially(lattice);
   std::uint32_t rounds_of_all = 0;
@@ -161,7 +162,7 @@ TEST(BorderRounds, MakeOfEachDiskWhatTheSerialOrderDoes) {
   for (unsigned seed = 0; seed < 12; ++seed) {
     for (const int ranks : {2, 3, 4, 5}) {
       for (const bool periodic : {false, true}) {
-        // With slabs of one row each disk has contacts across two borders.
+        // With slabs of a single row each disk has contacts across two borders.
         const int rows = seed % 3 == 0 ? ranks : 4 * ranks;
         const Lattice lattice = with_random_ids(24, rows, periodic, seed);
         const std::uint32_t rounds = expect_serial_values(lattice, ranks, 1 + static_cast<int>(seed % 2));
@@ -172,8 +173,8 @@ TEST(BorderRounds, MakeOfEachDiskWhatTheSerialOrderDoes) {
   }
 }
 
-// Where ids ascend row by row each border waits for the one below; where they do column by column, its contacts wait
-// for each other.
+// If ids ascend row by row each border waits for the one below; if they ascend column by column the contacts of a
+// border wait for each other.
 TEST(BorderRounds, AreAsManyAsContactsWait) {
   Lattice lattice{20, 12, false, {}};
   lattice.id.resize(240);

@@ -1,6 +1,7 @@
-// What a rank finds near its borders, held against a look at all disks: those near a border or beyond it, how far they
-// have left the slab, which of them the neighbours must see, and the pairs across a border. Disks of three size classes
-// have moved since they were sorted into cells, most of them within the margin of these, some further: they are strays.
+// The search of a rank near its borders, compared with a look at all disks: disks near a border or beyond it, how far
+// they have left the slab, which of them the neighbours must see, and the pairs across a border. Disks of three size
+// classes have moved since they were sorted into cells, most of them within the margin of the cells, some further:
+// these are strays.
 #include "parallel/slabs/border_search.hpp"
 
 #include <gtest/gtest.h>
@@ -31,7 +32,7 @@ Disk drawn_disk(test::Draws& draws, double low, double high, DiskId id) {
   return disk;
 }
 
-// A rank's disks, sorted into the cells of its slab, and moved since.
+// The disks of a rank, sorted into the cells of its slab, and moved since then.
 struct Part {
   Part(int rank, bool periodic, double moved, std::uint64_t seed)
       : box(test::box_of(14.0, 30.0, periodic ? test::Periodic::both : test::Periodic::x)),
@@ -50,7 +51,7 @@ struct Part {
     drift_blocks(d, box, 0.0, 1.0, executor, cells);
   }
 
-  // How far disk i is within the nearest border of its slab, by itself; negative beyond it.
+  // The distance of disk i from the nearest border of its slab, computed directly; negative beyond it.
   double depth_of(double y) const {
     const Beyond b = beyond(slab, box, y);
     return -std::max(slab.has_lower ? b.lower : -HUGE_VAL, slab.has_upper ? b.upper : -HUGE_VAL);
@@ -65,7 +66,8 @@ struct Part {
   CellList cells;
 };
 
-// Of many parts: each rank of a box with walls and of a periodic one, with and without disks that have gone far.
+// Calls see() for many parts: each rank of a box with walls and of a periodic one, with and without disks that have
+// moved far.
 template <class See>
 void for_parts(See&& see) {
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
@@ -109,7 +111,7 @@ TEST(NearBorders, AreAllThatLieWithinTheDepthAndEachOnce) {
         ASSERT_TRUE(std::binary_search(near.begin(), near.end(), i)) << part.d.y[i] << ", depth " << depth;
       }
       ASSERT_EQ(excursion_of(part.slab, part.box, part.d, near), furthest);
-      if (depth > 3.0) continue;  // both borders are near
+      if (depth > 3.0) continue;  // then both borders are near
       found += near.size();
       all += part.d.size();
     }
@@ -117,7 +119,7 @@ TEST(NearBorders, AreAllThatLieWithinTheDepthAndEachOnce) {
   EXPECT_LT(found, 3 * all / 5);
 }
 
-// A disk is seen beyond a border if one of the largest, which has left its own slab by the excursion, may touch it.
+// A disk must be seen beyond a border if the largest disk, outside its own slab by the excursion, could touch it.
 TEST(SeenBeyond, AreAllThatMayTouchADiskThere) {
   for_parts([](Part& part) {
     std::vector<std::uint32_t> near;

@@ -1,5 +1,5 @@
-// What a rank of `exact` knows of the disks that it does not have, held against a look at all disks of all ranks: the
-// band that none of them comes into, when new ghosts are due, when strangers come too near, and what neighbours answer.
+// The disks known to a rank of `exact` that it does not own, compared with a look at all disks: the band that no
+// unknown disk enters, when new ghosts are due, when unknown disks come too near, and the answers of neighbours.
 #include "parallel/slabs/exact_ghosts.hpp"
 
 #include <gtest/gtest.h>
@@ -25,8 +25,8 @@ constexpr double thinnest = 30.0;
 const SlabCut cut{{0.0, 35.0, 65.0, height}};
 const Approach approach{3.0, 1.5, thinnest};
 
-// clear: what the lowest and the highest rank do not have of the middle slab is empty, and the nearest disks that they
-// do not have are each other's.
+// clear: the part of the middle slab that the lowest and the highest rank do not know is empty, and for each of them
+// the nearest unknown disks are those of the other.
 double first_height(test::Draws& draws, DiskId id, bool clear) {
   const double y = draws.in(0.0, height);
   if (!clear) return y;
@@ -34,7 +34,7 @@ double first_height(test::Draws& draws, DiskId id, bool clear) {
   return y > 35.0 && y < 65.0 ? 45.0 + (y - 35.0) / 3.0 : y;
 }
 
-// Where each disk was when ghosts were chosen, and where it is now.
+// The height of each disk when ghosts were chosen, and now.
 struct Heights {
   Heights(bool periodic, double moved, std::uint64_t seed)
       : box(test::box_of(50.0, height, periodic ? test::Periodic::both : test::Periodic::x)) {
@@ -50,7 +50,7 @@ struct Heights {
   std::vector<double> before, now;
 };
 
-// A rank with its disks and ghosts, all where they are now.
+// A rank with its disks and ghosts at their present places.
 struct Part {
   Part(Ranks& r, const Heights& all) : ranks(r), heights(all), slab(slab_of(cut, all.box, r.rank())), ghosts(r) {
     const DiskColumns columns{};
@@ -73,7 +73,7 @@ struct Part {
     const int owner = cut.rank_at(heights.before[id]);
     return (slab.has_lower && owner == ranks.below()) || (slab.has_upper && owner == ranks.above());
   }
-  // How far it is beyond the slab.
+  // The distance of the disk beyond the slab.
   double beyond_slab(DiskId id) const {
     const Beyond b = beyond(slab, heights.box, heights.now[id]);
     return std::max(slab.has_lower ? b.lower : -HUGE_VAL, slab.has_upper ? b.upper : -HUGE_VAL);
@@ -86,7 +86,7 @@ struct Part {
   State state;
 };
 
-// Of boxes with walls and periodic ones, whose disks have hardly moved, and others.
+// Calls see() in boxes with walls and periodic ones; in some the disks have hardly moved, in others more.
 void for_parts(const std::function<void(Part&, std::uint64_t)>& see) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     for (const double moved : {0.09, 0.3}) {
@@ -100,9 +100,9 @@ void for_parts(const std::function<void(Part&, std::uint64_t)>& see) {
   }
 }
 
-// A disk that is not here is outside of the band by as much as it may come nearer in the window: one of a neighbour,
-// which watches it, by what is taken; one of another rank by what the fastest disk may go. So it is as long as no new
-// ghosts are due.
+// An unknown disk is outside the band by as much as it may approach in the window: a neighbour's disk, which that
+// neighbour watches, by the approach assumed; a disk of another rank by the way of the fastest disk. This holds as long
+// as no new ghosts are due.
 TEST(ExactGhosts, KnowABandThatNoOtherDiskComesInto) {
   for_parts([](Part& part, std::uint64_t seed) {
     if (part.ranks.any(part.ghosts.are_few())) return;
@@ -136,8 +136,8 @@ TEST(ExactGhosts, AreFewWhereDisksHaveComeNearOrLeft) {
   EXPECT_GT(enough, 40);
 }
 
-// In a slice a disk that a neighbour does not have may come as near to it as it is at the slice's start less what the
-// fastest one flies. The neighbour takes it to come nearer by no more than `taken` since the window's start.
+// In a slice a disk unknown to a neighbour may come as near to it as its distance at the slice's start minus the way of
+// the fastest disk. The neighbour assumes an approach of at most `taken` since the window's start.
 TEST(ExactGhosts, SeeStrangersThatComeNear) {
   int near = 0, far = 0;
   std::mutex mutex;
@@ -177,8 +177,8 @@ TEST(ExactGhosts, SeeStrangersThatComeNear) {
   EXPECT_GT(far, 40);
 }
 
-// All that a path's owner knows of it, where it has begun more of them; and how fast it is, as a fast disk may meet
-// images of others beyond the nearest ones.
+// Ghosts get all that the owner knows of their path if it has begun further paths; and their speed, since a fast disk
+// may meet images of others beyond the nearest ones.
 TEST(ExactGhosts, LearnWhatHasBecomeOfThem) {
   const Heights heights(true, 0.0, 1);
   run_on_local_ranks(cut.ranks(), [&](Ranks& ranks) {
@@ -221,7 +221,7 @@ TEST(ExactGhosts, LearnWhatHasBecomeOfThem) {
   });
 }
 
-// What was worst on any rank is what all say, and events are those of all.
+// The worst outcome on any rank becomes that of all, and events are summed over all ranks.
 TEST(ExactGhosts, AgreeOnTheWorstOutcome) {
   using enum SliceOutcome;
   for (const auto& [first, second, both] : {std::tuple{done, done, done},

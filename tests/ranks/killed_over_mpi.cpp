@@ -1,4 +1,4 @@
-// carom run and resume with --ranks where a rank is killed or stands still.
+// carom run and resume with --ranks if a rank is killed or stopped.
 #include <chrono>
 #include <random>
 
@@ -11,9 +11,10 @@ using test::exact_tall;
 using test::far_end;
 using test::RanksRun;
 
-// Whichever of however many ranks dies, and whenever: the others end, one line says so, and from the last checkpoint
-// the run goes on with another number of ranks as if nothing had been; where it is killed again, until after four times
-// one process brings it to its end. Every other run is one of exact. The ends are later than any run here comes to.
+// Any of any number of ranks dies at any time: the others end, there is one line of error, and from the last checkpoint
+// the run goes on with another number of ranks as if nothing had happened. There it is killed again, and after the
+// fourth time one process runs it to its end. Every other run uses exact. The end of the runs is later than any of them
+// gets before it is killed.
 TEST_F(RanksRun, AKilledRankEndsAllAndNothingIsLost) {
   const std::string run_one = "run scene.toml --quiet --set output.every=1e3 ";
   const std::string end = "--t-end 1e3";
@@ -35,7 +36,7 @@ TEST_F(RanksRun, AKilledRankEndsAllAndNothingIsLost) {
       const std::vector<pid_t> all = ranks_of(folder);
       ASSERT_EQ(all.size(), count);
       const std::size_t before = said().size();
-      // On a machine so busy that the start takes long, so may the end.
+      // On a machine so busy that the start takes long the end may take long, too.
       const auto start_took = std::chrono::steady_clock::now() - started;
       usleep(delay);
       kill(all[victim], SIGKILL);
@@ -54,7 +55,7 @@ TEST_F(RanksRun, AKilledRankEndsAllAndNothingIsLost) {
   }
 }
 
-// A rank that stands still is waited for.
+// The others wait for a rank that is stopped.
 TEST_F(RanksRun, AStoppedRankIsWaitedFor) {
   ASSERT_EQ(carom("run scene.toml --quiet --set output.every=1e3 -o one " + far_end).status, 0);
   for (const std::size_t victim : {0U, 1U}) {

@@ -1,4 +1,4 @@
-// A run on several ranks as rank 0 begins and steps it, and what the ranks say to each other.
+// A run on several ranks as rank 0 starts and steps it, and the messages between the ranks.
 #include "parallel/slabs/leading_engine.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ using test::gas;
 using test::on_ranks;
 using test::the_start;
 
-// Three disks far from each other, on three ranks: what a step says can be counted by hand.
+// Three disks far apart on three ranks: the messages of a step can be counted by hand.
 TEST(LeadingEngine, CountsWhatRanksSayInAStep) {
   const Scene scene = parse_scene(
       "[box]\nwidth = 20.0\nheight = 60.0\n[[disks]]\ncount = 3\npositions = [[5.0, 5.0], [5.0, 30.0], [5.0, 55.0]]\n"
@@ -42,17 +42,18 @@ TEST(LeadingEngine, CountsWhatRanksSayInAStep) {
       EXPECT_EQ(then.ranks[r].disks, 1U);
       const Traffic a = first.ranks[r].in_steps;
       const Traffic later = traffic_since(a, then.ranks[r].in_steps);
-      // Ghosts and clusters: to each neighbour a list and two lists, each with its length. A slab ends where the first
-      // disk of the next one is, which is a ghost.
+      // Ghosts and clusters: to each neighbour one list and two lists, each with its length. A slab ends at the first
+      // disk of the next one, which is therefore a ghost.
       const Count ghost = r > 0 ? sizeof(Disk) : 0;
       EXPECT_EQ(then.ranks[r].ghosts, r < 2 ? 1U : 0U);
       EXPECT_EQ(later.exchange.messages, 4U * 4U);
       EXPECT_EQ(later.exchange.bytes, 4U * (2U * (8U + 16U) + ghost));
-      // That there is a step; excursion, whether clusters span slabs, one pass of impacts, one sweep, sums, speed.
+      // The start of a step, excursion, whether clusters span slabs, one pass of impacts, one sweep, sums, and the
+      // largest speed.
       EXPECT_EQ(later.all_reduce.messages, 4U * 7U);
       EXPECT_EQ(later.gather.messages, 4U);  // the deepest overlaps
-      // The first step sorts, which asks whether one rank has too many, sends two empty lists of disks and of loads,
-      // and asks whether all are where they belong; and it looks at all speeds.
+      // The first step sorts: the ranks ask whether one has too many disks, send two empty lists of disks and of loads,
+      // and check that all disks are where they belong; and all speeds are looked at.
       EXPECT_EQ(a.exchange.messages, 4U + 2U);
       EXPECT_EQ(a.exchange.bytes, 2U * (8U + 16U) + ghost + 32U);
       EXPECT_EQ(a.all_reduce.messages, 7U + 3U);
@@ -85,9 +86,9 @@ TEST(LeadingEngine, CountsTheSameInEqualRuns) {
   }
 }
 
-// A start that every rank makes for its slab, a refused one, and one of rank 0, one after the other.
+// A start that every rank makes for its slab, a refused one, and one made by rank 0, one after the other.
 TEST(LeadingEngine, BeginsWhereDisksLive) {
-  // Slabs of exact have to be high.
+  // For exact slabs have to be high.
   const auto lattice = [](const std::string& method, int count) {
     return parse_scene(
         fmt::format("[box]\nwidth = 12.0\nheight = 300.0\nleft = \"periodic\"\nright = \"periodic\"\n"
@@ -126,7 +127,7 @@ TEST(LeadingEngine, BeginsWhereDisksLive) {
   on_ranks(2, grown, {}, [&](RankLead& lead) { EXPECT_EQ(lead.make_engine_at_start(grown, {1}, the_start), nullptr); });
 }
 
-// As those of a checkpoint; how slabs are cut then has nothing to do with the bits.
+// Disks come in pieces, as from a checkpoint; the slabs then have other borders, which must not change any bit.
 TEST(LeadingEngine, BeginsFromDisksThatComeSomeAtATime) {
   for (const char* method : {"pairwise", "exact"}) {
     for (const char* radius : {"0.5", "{ uniform = [0.2, 0.6] }"}) {
@@ -155,14 +156,14 @@ TEST(LeadingEngine, BeginsFromDisksThatComeSomeAtATime) {
   }
 }
 
-// One engine after another, as a program may make them; and what is refused leaves the ranks together.
+// Several engines after each other, as a program may make them; and after a refusal the ranks must still be in step.
 TEST(LeadingEngine, ScenesThatRanksDoNotKnowAreRefusedAndOthersFollow) {
   const Scene rollback = gas("rollback");
   const State start = initial_state(rollback);
   on_ranks(3, rollback, start, [&](RankLead& lead) {
     try {
       lead.make_engine(rollback, start, {1}, the_start);
-      ADD_FAILURE() << "rollback was taken";
+      ADD_FAILURE() << "rollback was accepted";
     } catch (const InputError& error) {
       EXPECT_STREQ(error.what(),
                    "several ranks do not know the method rollback, whose frames are of the whole box: use one, or "

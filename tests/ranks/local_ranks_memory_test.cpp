@@ -1,4 +1,4 @@
-// Threads that act as ranks, where one of them cannot be started: the others end, and the caller is told.
+// Threads that act as ranks, one of which cannot be started: the others end, and the caller gets an error.
 #include <gtest/gtest.h>
 
 #include <new>
@@ -9,7 +9,7 @@
 namespace carom {
 namespace {
 
-// Each rank waits for all others. A thread that begins needs memory of the one that begins it.
+// Each rank waits for all the others. Starting a thread takes memory of the thread that starts it.
 TEST(LocalRanksMemory, RanksEndWhereOneCannotBegin) {
   int failures = 0;
   for (std::size_t n = 0;; ++n) {

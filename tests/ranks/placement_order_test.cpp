@@ -1,4 +1,4 @@
-// The order in which ranks place disks at random: that of one machine, which sorts them all.
+// The order in which ranks place disks at random: it is that of a single machine, which sorts all disks.
 #include "parallel/slabs/placement_order.hpp"
 
 #include <gtest/gtest.h>

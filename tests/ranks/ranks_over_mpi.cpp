@@ -1,5 +1,5 @@
-// Ranks over MPI: started by mpiexec, on several ranks at once (CMakeLists.txt). Every rank runs all tests, in the same
-// order; what fails on one fails the run.
+// Ranks over MPI, started by mpiexec on several ranks (CMakeLists.txt). Every rank runs all tests in the same order; a
+// failure on one rank fails the run.
 #include <gtest/gtest.h>
 
 #include "parallel/ranks/mpi_ranks.hpp"
@@ -30,7 +30,7 @@ TEST(MpiRanks, Gather) {
 }
 
 TEST(MpiRanks, RunPairwiseWithTheBitsOfOneMachine) {
-  // Ranks that wait keep busy: where there are more than cores, steps take long. LocalRanks run all scenes.
+  // Waiting ranks use processor time: with more ranks than cores steps take long. With LocalRanks all scenes are run.
   for (const char* sides : {"wall", "periodic"}) {
     const std::vector<Scene> scenes = test::slab_scenes(sides, 8);
     for (std::size_t k = 0; k < scenes.size(); k += 4) {

@@ -1,11 +1,11 @@
-// Runs on several ranks that are stopped, killed and taken up again, for tests over MPI.
+// Runs on several ranks that are stopped, killed and resumed, for tests over MPI.
 #pragma once
 
 #include "tests/support/program_support.hpp"
 
 namespace carom::test {
 
-// Ranks on a busy machine wait for each other at every message: some hundred disks and a few steps.
+// On a busy machine ranks wait for each other at every message: so there are only some hundred disks and a few steps.
 inline const std::string ranks_scene = R"([box]
 width = 20.0
 height = 40.0
@@ -27,10 +27,10 @@ trajectory = "xyz"
 series = true
 )";
 
-// Later than any run here comes before it is stopped.
+// Later than any run gets before it is stopped.
 inline const std::string far_end = "--t-end 200";
 
-// Of a box so tall that its slabs depend on their neighbours' disks alone; frames lie within windows.
+// For exact, a box so tall that slabs depend only on the disks of their neighbours; frames are within windows.
 inline const std::string exact_tall =
     " --method exact --set box.width=12 --set box.height=480 --set disks.0.count=1600 ";
 
@@ -38,7 +38,7 @@ class RanksRun : public ProgramTest {
  protected:
   RanksRun() { write("scene.toml", ranks_scene); }
 
-  // A run that goes on until it is stopped or killed, once it has written a checkpoint.
+  // Starts a run that goes on until it is stopped or killed, and waits for its first checkpoint.
   pid_t start_long(const std::string& folder, const std::string& ranks, const std::string& more = "") const {
     std::vector<std::string> words{"run",
                                    "scene.toml",
@@ -59,8 +59,8 @@ class RanksRun : public ProgramTest {
     return run;
   }
 
-  // The run of a folder that was killed goes on, on so many ranks, until it is killed once more: when it has written a
-  // checkpoint of its own.
+  // Resumes the killed run in a folder on this number of ranks, and waits for a checkpoint of its own; the caller then
+  // kills it again.
   pid_t resume_long(const std::string& folder, const std::string& ranks) const {
     const std::filesystem::file_time_type last = checkpoint_time(folder);
     const pid_t run = start({"resume", folder, "--quiet", "--ranks", ranks});
@@ -68,13 +68,13 @@ class RanksRun : public ProgramTest {
     return run;
   }
 
-  // Until the run of a folder has written another checkpoint than that of this time.
+  // Waits until the run in a folder has written a checkpoint later than this time.
   void await_checkpoint_after(std::filesystem::file_time_type last, const std::string& folder, pid_t run) const {
     const auto none = std::filesystem::file_time_type::min();
     for (auto now = last; (now == last || now == none) && is_running(run); usleep(1000)) now = checkpoint_time(folder);
   }
 
-  // Of the last checkpoint; the least that there is while a new one takes its place.
+  // The time of the last checkpoint; the earliest possible one while a new checkpoint replaces it.
   std::filesystem::file_time_type checkpoint_time(const std::string& folder) const {
     std::error_code ignored;
     return std::filesystem::last_write_time(checkpoint_of(folder), ignored);
@@ -89,8 +89,8 @@ class RanksRun : public ProgramTest {
     return !HasFailure();
   }
 
-  // The run of a folder has its last checkpoint, and from that comes to the end of the run `one`: some steps on so many
-  // ranks, and then alone, which is faster where there are more ranks than cores.
+  // The run in a folder has a checkpoint, from which it must come to the end of the run `one`: it makes some steps on
+  // this number of ranks, and goes on alone, which is faster than more ranks than cores.
   void expect_undisturbed(const std::string& folder, std::size_t ranks) const {
     const Outcome some =
         carom(fmt::format("resume {} --quiet --ranks {} --max-walltime 1e-9 ", folder, ranks) + far_end);
@@ -100,7 +100,7 @@ class RanksRun : public ProgramTest {
     EXPECT_EQ(summary(folder)["collisions"], summary("one")["collisions"]);
   }
 
-  // Process ids of the ranks of the run of a folder.
+  // The process ids of the ranks of the run in a folder.
   std::vector<pid_t> ranks_of(const std::string& folder) const {
     std::istringstream list(shell("pgrep -f '^[^ ]*carom-mpi (run scene.toml.* -o|resume) " + folder + "( |$)'").out);
     return {std::istream_iterator<pid_t>(list), {}};

@@ -40,7 +40,7 @@ TEST_P(LocalRanksOf, Gather) {
 INSTANTIATE_TEST_SUITE_P(Counts, LocalRanksOf, ::testing::Values(1, 2));
 INSTANTIATE_TEST_SUITE_P(LongCounts, LocalRanksOf, ::testing::Values(3, 4, 7));
 
-// One that fails ends them all: no rank waits for it, and its own exception is what the caller sees.
+// If one rank fails all of them end: no rank waits for it, and the caller gets its exception.
 TEST(LocalRanks, EndWithTheExceptionOfTheOneThatFails) {
   for (const bool in_exchange : {false, true}) {
     try {
@@ -56,7 +56,7 @@ TEST(LocalRanks, EndWithTheExceptionOfTheOneThatFails) {
   }
 }
 
-// Counted by hand: what this rank gives, of each kind.
+// The messages that a rank sends, by kind, counted by hand.
 TEST(LocalRanks, CountWhatTheySay) {
   for (const int count : {1, 2, 3}) {
     run_on_local_ranks(count, [&](Ranks& ranks) {
@@ -69,7 +69,7 @@ TEST(LocalRanks, CountWhatTheySay) {
       ranks.any(false);
       ranks.gather(Bytes(static_cast<std::size_t>(7 + ranks.rank())));
       const Traffic& t = ranks.traffic();
-      const Count others = count > 1 ? 1 : 0;  // one rank alone gives nothing to others
+      const Count others = count > 1 ? 1 : 0;  // a single rank sends nothing to others
       EXPECT_EQ(t.exchange.messages, others * 4);
       EXPECT_EQ(t.exchange.bytes, others * 8);
       EXPECT_EQ(t.all_reduce.messages, others * 3);
@@ -99,7 +99,7 @@ TEST(Message, ThatIsTooShortIsRefused) {
   EXPECT_EQ(reader.get<std::uint32_t>(), 7U);
   EXPECT_TRUE(reader.at_end());
   Bytes list;
-  put(list, std::size_t{1} << 60);  // more than there is
+  put(list, std::size_t{1} << 60);  // longer than the message
   EXPECT_THROW(MessageReader(list).get_all<double>(), std::out_of_range);
 }
 

@@ -1,5 +1,5 @@
-// Disks on their way between ranks, in many messages: each comes to the rank whose slab it is in, with all that goes
-// with it, and as a ghost to its neighbours.
+// Disks sent between ranks in many messages: each arrives at the rank whose slab it is in, with all its data, and as a
+// ghost at its neighbours.
 #include "parallel/slabs/redistribute.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace {
 constexpr DiskId disks = 24000;
 constexpr DiskColumns columns{true, false, true};
 
-// All that is known of a disk is told by its id.
+// All data of a disk follow from its id.
 MovingDisk disk_of(DiskId id, double height) {
   const double k = id;
   return {{k, height, k + 0.25, -k, 0.5 + 1e-6 * k, 2.0, id, 3.0 * k}, 10.0 * k, 7 * id};
@@ -41,7 +41,7 @@ std::vector<double> random_heights() {
   return heights;
 }
 
-// Without disks, with entries for all ids.
+// A state without disks, but with entries for all ids.
 State empty_state() {
   State state;
   state.disks.common_mass = 2.0;
@@ -67,7 +67,7 @@ void expect_disk(const State& state, std::size_t i, double height) {
   EXPECT_EQ(found.thermal_hits, expected.thermal_hits);
 }
 
-// The state has exactly the disks for which belongs(height) holds, as they are.
+// The state has exactly the disks for which belongs(height) holds, with all their data.
 template <class Belongs>
 void expect_disks(const State& state, const std::vector<double>& heights, Belongs&& belongs) {
   std::vector<DiskId> expected;
@@ -80,7 +80,7 @@ void expect_disks(const State& state, const std::vector<double>& heights, Belong
   for (std::size_t i = 0; i < found.size(); ++i) expect_disk(state, i, heights[state.disks.id[i]]);
 }
 
-// first_rank(id, to): which rank has the disk that belongs to rank `to`.
+// first_rank(id, to): the rank that first has a disk belonging to rank `to`.
 template <class FirstRank>
 void expect_sent(int count, FirstRank&& first_rank) {
   const std::vector<double> heights = random_heights();
@@ -149,7 +149,7 @@ TEST(Redistribute, ShowsGhostsInManyMessagesAndDropsThem) {
   });
 }
 
-// Rank 1 has more than go into one message, at the ends of which no disk is lost.
+// Rank 1 has more disks than fit into one message; none may be lost at the ends of messages.
 TEST(CollectOnFirst, BringsAllDisksAndLoadsInManyMessages) {
   const std::vector<double> heights = random_heights();
   run_on_local_ranks(3, [&](Ranks& ranks) {
@@ -164,14 +164,15 @@ TEST(CollectOnFirst, BringsAllDisksAndLoadsInManyMessages) {
     collect_on_first(ranks, columns, state);
     expect_disks(state, heights, [&](double) { return ranks.rank() == 0; });
     if (ranks.rank() > 0) return;
-    ASSERT_EQ(state.loads.size(), 3U) << "that across a border once";
+    ASSERT_EQ(state.loads.size(), 3U) << "the load across a border must occur once";
     EXPECT_EQ(state.loads[0].force, 1.0);
     EXPECT_EQ(state.loads[1].force, 2.0);
     EXPECT_EQ(state.loads[2].force, 3.0);
   });
 }
 
-// Slabs of about as many disks each, wherever the ranks have them: ten at the middle of each of a hundred rows.
+// Slabs have about equal numbers of disks, whichever ranks have them: there are ten in the middle of each of a hundred
+// rows.
 TEST(CutByRowsOfAll, SharesDisksOut) {
   const Domain box = periodic_box();
   for (const int count : {2, 4, 5}) {
@@ -189,8 +190,8 @@ TEST(CutByRowsOfAll, SharesDisksOut) {
   }
 }
 
-// The first ones give all ranks what they have in common; those that differ make a column, and leave the others as
-// they were.
+// The first newcomers set the common values of all ranks; values that differ make a column, and do not change those of
+// earlier disks.
 TEST(TakeNewcomers, KeepsWhatTheOthersHave) {
   const SlabCut cut{{0.0, 5.0, 10.0}};
   const auto newcomers = [](double radius, double mass, DiskId id) {
@@ -219,7 +220,7 @@ TEST(TakeNewcomers, KeepsWhatTheOthersHave) {
   }
 }
 
-// All ranks hold the same columns, though only one has the newcomer: its disks may come to any of them.
+// All ranks have the same columns, even if only one has the newcomer, since disks may move to any rank.
 TEST(TakeNewcomers, MakesColumnsWhereNoneOfThemIs) {
   const SlabCut cut{{0.0, 5.0, 10.0}};
   DiskColumns there;
@@ -233,7 +234,7 @@ TEST(TakeNewcomers, MakesColumnsWhereNoneOfThemIs) {
   EXPECT_EQ(own.mass, std::vector<double>{2.0});
 }
 
-// Rank 0 begins with all disks, and cuts slabs anew at once.
+// Rank 0 starts with all disks, and cuts slabs at once.
 TEST(Redistribute, GivesDisksToOtherRanksInManyMessages) {
   const Scene scene = test::slab_scene("hot", "width = 100.0\nheight = 120.0\n",
                                        "count = 7000\npositions = \"square\"\nradius = 0.5\nmass = 1.0\n"

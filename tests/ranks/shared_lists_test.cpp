@@ -1,5 +1,5 @@
-// Lists of the state of all ranks that come to rank 0 in many pieces: of ids in several ranges, of ranks that share a
-// radius or a mass and of one without disks, of contacts at the ends of ranges.
+// Lists of the state of all ranks that reach rank 0 in many pieces: ids in several ranges, ranks with a common radius
+// or mass, a rank without disks, and contacts at the ends of ranges.
 #include "parallel/slabs/shared_lists.hpp"
 
 #include <gtest/gtest.h>
@@ -17,13 +17,13 @@ constexpr int count = 4;
 constexpr DiskId ids = 2 * ids_a_piece + 7001;
 static_assert(ids / 2 > (std::size_t{1} << 16) / count, "the disks of a rank make more than one piece");
 
-// Every eighth disk is gone; half of the others are on rank 1, none on rank 3.
+// Every eighth disk is gone; half of the others are on rank 1, and none is on rank 3.
 int owner_of(DiskId id) {
   if (id % 8 == 5) return -1;
   return id % 2 == 0 ? 1 : id % 3 == 0 ? 0 : 2;
 }
 
-// Rank 0 has radii and a mass in common, rank 2 a radius in common and masses, rank 1 both in columns.
+// Rank 0 has a common radius and a common mass, rank 2 a common radius and a column of masses, rank 1 columns of both.
 double radius_of(DiskId id) {
   return owner_of(id) == 2 ? 0.25 : 0.5 + 1e-6 * id;
 }
@@ -39,7 +39,7 @@ std::vector<ContactLoad> loads_of(int rank) {
   return {};
 }
 
-// What goes by id is right of its own disks alone.
+// Lists by id are right only for the rank's own disks.
 State part_of(int rank) {
   State state;
   state.next_id = ids;
@@ -75,7 +75,7 @@ std::vector<std::tuple<DiskId, DiskId, double>> tuples_of(const std::vector<Cont
   return tuples;
 }
 
-// Every disk once, its entries of all lists at the same place.
+// Every disk occurs once, with its entries of all lists at the same place.
 void expect_disks(SharedLists& lists, bool first) {
   const auto id = entries_of<DiskId>(lists, StateList::id);
   const auto x = entries_of<double>(lists, StateList::x), vy = entries_of<double>(lists, StateList::vy);
@@ -94,7 +94,7 @@ void expect_disks(SharedLists& lists, bool first) {
   for (DiskId k = 0; k < ids; ++k) ASSERT_EQ(times[k], owner_of(k) >= 0 ? 1 : 0) << k;
 }
 
-// What is known of each id is what its rank knows; those of no rank are as rank 0 has them.
+// Values by id are those of the rank that has the disk; for ids without a disk they are those of rank 0.
 void expect_by_id(SharedLists& lists, bool first) {
   const auto last_contact = entries_of<double>(lists, StateList::last_contact);
   const auto thermal_hits = entries_of<std::uint32_t>(lists, StateList::thermal_hits);
@@ -126,7 +126,7 @@ TEST(SharedLists, HaveAllEntriesOfAllRanks) {
                                            {2 * edge - 1, ids - 1, 4.0},
                                            {2 * edge, 2 * edge + 1, 6.0},
                                            {ids - 2, ids - 1, 7.0}}))
-        << "those across a border once";
+        << "loads across a border must occur once";
   });
 }
 

@@ -1,4 +1,4 @@
-// Signals to carom run --ranks that come while mpiexec starts the ranks: none is lost, and none ends a rank.
+// Signals to carom run --ranks while mpiexec starts the ranks: none is lost, and none ends a rank.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -32,7 +32,7 @@ series = true
 )");
   }
 
-  // A run whose mpiexec has just been started.
+  // Starts a run, and waits until its mpiexec has been started.
   pid_t start_ranks(const std::string& folder) const {
     const pid_t run = start({"run", "scene.toml", "--quiet", "--ranks", "2", "-o", folder});
     const std::string children = fmt::format("/proc/{0}/task/{0}/children", run);
@@ -43,7 +43,7 @@ series = true
     return run;
   }
 
-  // Its exit status, or none where it does not end: then it is killed.
+  // The exit status of a run, or none if it does not end soon; then it is killed.
   static int status_soon(pid_t run) {
     constexpr int patience_ms = 60'000;
     for (int k = 0; k < patience_ms; ++k, usleep(1000)) {
@@ -55,7 +55,7 @@ series = true
   }
 };
 
-// Rank 0 gets a signal once it listens; by then either no checkpoint can be written yet or one is.
+// Rank 0 gets the signal as soon as it listens; by then there may or may not be a checkpoint.
 TEST_F(SignalsToRanks, AreKeptUntilTheRanksListen) {
   for (const useconds_t delay : {0U, 20'000U, 60'000U, 150'000U, 400'000U}) {
     SCOPED_TRACE(fmt::format("after {} us", delay));
@@ -67,7 +67,7 @@ TEST_F(SignalsToRanks, AreKeptUntilTheRanksListen) {
   EXPECT_NE(said().find("stopped by SIGTERM"), std::string::npos) << said();
 }
 
-// A wish for a checkpoint ends nothing.
+// A request for a checkpoint must not end the run.
 TEST_F(SignalsToRanks, AWishForACheckpointLetsTheRanksStart) {
   for (const useconds_t delay : {0U, 20'000U, 60'000U, 150'000U}) {
     SCOPED_TRACE(fmt::format("after {} us", delay));

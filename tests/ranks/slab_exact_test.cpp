@@ -1,4 +1,4 @@
-// `exact` on several ranks: the bits of one machine after every window, on any number of ranks and threads.
+// `exact` on several ranks: the bits of a single machine after every window, for any number of ranks and threads.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ using test::Features;
 using test::RankThreads;
 using test::SlabTrace;
 
-// A box so tall that each of four slabs is thicker than what depends on its neighbours.
+// A box so tall that each of four slabs is thicker than the part of it that depends on its neighbours.
 struct TallBox {
   std::string sides = "periodic";
   double width = 24.0, height = 400.0;
@@ -46,8 +46,8 @@ Scene tall_scene(const TallBox& tall) {
                      "scene", "");
 }
 
-// The same bits on 2, 3 and 4 ranks. sometimes_alone: rank 0 runs some windows alone, and slabs go on after them;
-// otherwise none ever has more than its share of the disks.
+// Compares the bits on 2, 3 and 4 ranks. sometimes_alone: rank 0 runs some windows alone, and slabs go on after them;
+// otherwise no rank may ever have more than its share of the disks.
 Counters expect_bits_on_slabs(const TallBox& tall, RankThreads threads = RankThreads::alternate,
                               bool sometimes_alone = false) {
   const auto all = static_cast<std::size_t>(tall.disks);
@@ -93,7 +93,8 @@ TEST(LongSlabExact, HasTheBitsOfUnequalDisksThatLoseEnergy) {
   }
 }
 
-// When a disk collided last, and how often it has met a thermal side, every rank knows that sees it.
+// The time of a disk's last collision, and its number of reflections by thermal sides, are known to every rank that
+// sees the disk.
 TEST(LongSlabExact, HasTheBitsOfDisksThatRememberTheirContacts) {
   for (const double width : {6.0, 10.0}) {
     TallBox tall{.sides = "hot", .width = width, .disks = static_cast<int>(90.0 * width), .t_end = 16.0};
@@ -103,7 +104,7 @@ TEST(LongSlabExact, HasTheBitsOfDisksThatRememberTheirContacts) {
   }
 }
 
-// A side that vibrates in parabolas turns at the end of a window: what was foreseen is no longer so on any rank.
+// A side that vibrates in parabolas changes its motion at the end of a window: predictions become wrong on all ranks.
 TEST(SlabExact, HasTheBitsOfASideThatTurns) {
   const TallBox tall{.sides = "turning", .width = 12.0, .disks = 1000, .t_end = 4.0};
   EXPECT_GT(expect_bits_on_slabs(tall).wall_collisions, 500U);
@@ -117,7 +118,7 @@ TEST(SlabExact, HasTheBitsOfRoughDisks) {
   }
 }
 
-// Each disk draws the same on every rank that sees it.
+// The draws for a disk are the same on every rank that sees it.
 TEST(SlabExact, HasTheBitsOfThermostatsAndBrownianMotion) {
   for (const char* thermostat : {"langevin", "andersen", ""}) {
     TallBox tall{.t_end = 3.0};
@@ -130,8 +131,7 @@ TEST(SlabExact, HasTheBitsOfThermostatsAndBrownianMotion) {
   }
 }
 
-// Disks that sinks take, on the sides and on inner walls, and those that sources bring, of sizes that none at the start
-// has.
+// Sinks on sides and on inner walls take disks, and sources emit disks of sizes that no disk of the start has.
 TEST(LongSlabExact, HasTheBitsOfSourcesAndSinks) {
   for (const bool sources : {false, true}) {
     for (const char* sides : {"sink", "periodic", "periodic_x"}) {
@@ -152,7 +152,7 @@ TEST(LongSlabExact, HasTheBitsOfSourcesAndSinks) {
   }
 }
 
-// A box that sources fill: first one rank runs it.
+// A box filled by sources: at first a single rank runs it.
 TEST(LongSlabExact, HasTheBitsOfABoxThatSourcesFill) {
   const Scene scene = parse_scene(
       "[box]\nwidth = 12.0\nheight = 300.0\ntop = \"sink\"\n[[sources]]\nregion = [1.0, 5.0, 11.0, 295.0]\nrate = "
@@ -167,8 +167,8 @@ TEST(LongSlabExact, HasTheBitsOfABoxThatSourcesFill) {
   EXPECT_EQ(counters.emitted, 900U);
 }
 
-// Slabs are too thin, which is asked now and then, when the sources have sent in what is due: one rank then runs the
-// window without asking them again. Of the two, the first has a full corner.
+// At times slabs are too thin, which is noticed after the sources have emitted what is due: one rank then runs the
+// window without asking them again. The first of the two sources has a full corner.
 TEST(SlabExact, AsksSourcesOnceWhereOneRankRunsTheWindow) {
   const Scene scene = parse_scene(
       "seed = 4\n[box]\nwidth = 30.0\nheight = 30.0\n[[disks]]\ncount = 12\npositions = \"square\"\nvelocities = { "
@@ -185,8 +185,8 @@ TEST(SlabExact, AsksSourcesOnceWhereOneRankRunsTheWindow) {
   EXPECT_GT(counters.waiting, 0U);
 }
 
-// An empty box has no radius that its disks share, as the first source draws them. While one rank runs it, the other
-// sources' disks bring one, and all ranks have to know it when slabs go on.
+// An empty box has no common radius, as the first source draws radii. While one rank runs it, disks of the other
+// sources bring a common radius, which all ranks must know when slabs go on.
 TEST(SlabExact, KnowsTheRadiusThatNewcomersBringIntoAnEmptyBox) {
   std::string text =
       "[box]\nwidth = 12.0\nheight = 300.0\n[[sources]]\nregion = [1.0, 5.0, 11.0, 295.0]\nrate = 0.001\nradius = { "
@@ -209,14 +209,14 @@ TEST(SlabExact, KnowsTheRadiusThatNewcomersBringIntoAnEmptyBox) {
   EXPECT_GT(on_slabs, 0U);
 }
 
-// Brownian disks that cross a sink unseen leave at an interval's start.
+// Brownian disks that cross a sink within an interval leave at the start of the next one.
 TEST(SlabExact, HasTheBitsOfBrownianDisksThatSinksTake) {
   TallBox tall{.sides = "sink", .t_end = 3.0, .step = 0.2};
   tall.features.diffusion = "replace";
   EXPECT_GT(expect_bits_on_slabs(tall).removed, 30U);
 }
 
-// Disks fall: slabs are cut anew as they go.
+// The disks fall, so slabs are cut anew during the run.
 TEST(SlabExact, HasTheBitsUnderGravity) {
   for (const bool tilted : {false, true}) {
     TallBox tall{.sides = "wall", .t_end = 3.0};
@@ -226,7 +226,7 @@ TEST(SlabExact, HasTheBitsUnderGravity) {
   }
 }
 
-// A disk is put into the top, as if a contact had been missed: all ranks say so, whichever has it.
+// A disk is put into the top side, as if a contact had been missed: all ranks report it, whichever has the disk.
 TEST(SlabExact, SaysWhereADiskIsInAWall) {
   TallBox tall{.sides = "wall", .t_end = 0.1};
   tall.features.gravity = true;
@@ -256,7 +256,7 @@ TEST(LongSlabExact, HasTheBitsWhereWallsMoveAndThingsStandInTheWay) {
   }
 }
 
-// A disk that hardly has room between two fixed ones makes windows crowded.
+// A disk with hardly any room between two fixed ones makes windows crowded.
 TEST(LongSlabExact, HasTheBitsAfterCrowdedWindows) {
   TallBox tall{.t_end = 0.02};
   tall.box =
@@ -265,13 +265,13 @@ TEST(LongSlabExact, HasTheBitsAfterCrowdedWindows) {
   EXPECT_GT(expect_bits_on_slabs(tall, RankThreads::alternate, true).wall_collisions, 50'000U);
 }
 
-// Light disks among heavy ones soon break the speed bound, and become so fast that slabs are too thin.
+// Light disks among heavy ones soon exceed the speed bound, and become so fast that slabs are too thin.
 TEST(SlabExact, HasTheBitsWhereWindowsAreDoneAgain) {
   const TallBox tall{.mass = "{ uniform = [1, 2000] }", .t_end = 150.0};
   EXPECT_GT(expect_bits_on_slabs(tall, RankThreads::alternate, true).collisions, 3000U);
 }
 
-// What slabs do not know one rank does.
+// Scenes with features that slabs cannot handle are run by one rank.
 TEST(LongSlabExact, HasTheBitsOfScenesThatOneRankRuns) {
   for (const char* sides : {"wall", "periodic", "sink", "periodic_x"}) {
     int k = 0;

@@ -1,5 +1,5 @@
-// `exact` on slabs: random tall boxes of all that slabs know, on 2 to 4 ranks, with the bits of one machine after every
-// window, in each rank's own disks and in its ghosts.
+// `exact` on slabs: random tall boxes with all features that slabs handle, on 2 to 4 ranks, with the bits of a single
+// machine after every window, both in each rank's own disks and in its ghosts.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace {
 
 constexpr int shards = 4, scenes_a_shard = 50;
 
-// Other scenes where the environment names a seed.
+// The environment may name a seed for other scenes.
 std::uint64_t first_seed() {
   const char* const named = std::getenv("CAROM_TALL_SEED");
   return named != nullptr ? std::strtoull(named, nullptr, 10) : 1900;
@@ -63,7 +63,7 @@ class TallBoxes {
   double uniform(double low, double high) { return std::uniform_real_distribution<>(low, high)(random_); }
   std::string one_of(const std::vector<std::string>& all) { return all[random_() % all.size()]; }
 
-  // Fixed disks, sources, inner walls, sinks among them.
+  // Fixed disks, sources, and inner walls, some of which are sinks.
   std::string things(double width, double height) {
     std::string text;
     if (chance(0.3)) {
@@ -107,7 +107,7 @@ bool is_among(const std::vector<Disk>& all, const Disk& disk) {
   return at != all.end() && at->id == disk.id && is_same(*at, disk);
 }
 
-// One machine after each of some windows.
+// The states of a single machine after each of some windows.
 struct Truth {
   std::vector<std::vector<Disk>> disks;
   State end;
@@ -124,7 +124,7 @@ Truth truth_of(const Scene& scene, const State& start, int windows) {
   return truth;
 }
 
-// Own disks and ghosts. Does the rank have less than all?
+// Compares own disks and ghosts. Does the rank have fewer than all disks?
 bool expect_truth(const Scene& scene, const State& start, const Truth& truth, const Threads& threads, Ranks& ranks) {
   const auto engine = make_slab_exact(scene, start, threads, ranks);
   bool on_slabs = false;
@@ -165,7 +165,7 @@ TEST_P(SlabExactScenes, HaveTheBitsOfOneMachine) {
       start = initial_state(scene);
       truth = truth_of(scene, start, 25);
     } catch (const std::runtime_error&) {
-      continue;  // no room for so many, or collapse
+      continue;  // no room for the disks, or a collapse
     }
     ++made;
     std::atomic<int> slabs{0};

@@ -1,5 +1,5 @@
-// What ranks find among neighbours, each among the disks of its slab and at its borders, is that of one machine: pairs
-// by distance, psi6, and its correlation over distance.
+// Quantities of neighbours that ranks compute from the disks of their slabs and at the borders are those of a single
+// machine: pairs by distance, psi6, and its correlation over distance.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ bool expect_pairs(const DisksInPieces& pieces, const Disks& there, const Scene& 
   return true;
 }
 
-// The same of psi6, bit for bit.
+// The same for psi6, bit for bit.
 bool expect_orders(const DisksInPieces& pieces, const Disks& there, const Scene& scene) {
   const AnalysisPlan& plan = scene.analysis;
   const Disks measured = plan.group.empty() ? there : disks_of(there, plan.ids);
@@ -64,7 +64,7 @@ bool expect_orders(const DisksInPieces& pieces, const Disks& there, const Scene&
   return known;
 }
 
-// And of the pairs that its correlation over distance is made of.
+// And for the pairs that enter its correlation over distance.
 bool expect_bonds(const DisksInPieces& pieces, const Disks& there, const Scene& scene) {
   const AnalysisPlan& plan = scene.analysis;
   const auto bonds = pieces.bond_pairs();
@@ -85,7 +85,8 @@ struct Known {
   int pairs = 0, orders = 0, bonds = 0;
 };
 
-// In steps of a run on so many ranks, also at times within them. Returns how often the ranks could tell.
+// Compares in the steps of a run on this number of ranks, and at times within steps. Returns how often the ranks could
+// tell.
 Known expect_those_of_one_machine(const Scene& scene, int ranks) {
   const State start = initial_state(scene);
   Known known;
@@ -120,7 +121,7 @@ TEST(SlabNeighbours, AreThoseOfOneMachine) {
       for (const int ranks : {1, 2, 3, 4}) {
         const Known known = expect_those_of_one_machine(scene_with("pairwise", sides, 60, pairs), ranks);
         EXPECT_EQ(known.pairs, 20) << ranks;
-        // The few are so far from each other that they look for neighbours beyond the next of thin slabs.
+        // These few disks are so far apart that with thin slabs they look for neighbours beyond the next slab.
         if (pairs == of_some && ranks > 2) continue;
         EXPECT_EQ(known.orders, 20) << ranks;
         EXPECT_EQ(known.bonds, 20) << ranks;
@@ -135,7 +136,7 @@ TEST(SlabNeighbours, AreThoseOfOneMachine) {
   }
 }
 
-// The images above a sheared box are displaced, by more than its width in the end.
+// The images above a sheared box are displaced, in the end by more than its width.
 TEST(SlabNeighbours, AreThoseOfOneMachineInAShearFlow) {
   const std::string shear = periodic + "shear_rate = 0.7\n";
   for (const int ranks : {1, 2, 3, 4}) {
@@ -147,7 +148,7 @@ TEST(SlabNeighbours, AreThoseOfOneMachineInAShearFlow) {
   EXPECT_EQ(expect_those_of_one_machine(scene_with("pairwise", shear, 8, far), 2).bonds, 20);
 }
 
-// Neighbours of ranks that are none: all disks are needed.
+// The neighbours belong to ranks that are not adjacent, so all disks are needed.
 TEST(SlabNeighbours, AreLeftToOthersWhereSlabsAreThin) {
   const Known thin = expect_those_of_one_machine(scene_with("pairwise", walls, 12, far), 4);
   EXPECT_EQ(thin.pairs + thin.orders + thin.bonds, 0);

@@ -1,4 +1,4 @@
-// `pairwise` on several ranks: the bits of one machine after every step, on any number of ranks and threads.
+// `pairwise` on several ranks: the bits of a single machine after every step, for any number of ranks and threads.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -43,7 +43,7 @@ INSTANTIATE_TEST_SUITE_P(Sides, SlabPairwise, ::testing::Values("moving"), name_
 INSTANTIATE_TEST_SUITE_P(LongSides, SlabPairwise,
                          ::testing::Values("wall", "periodic", "periodic_x", "soft", "sink", "hot"), name_of);
 
-// Nearly all disks are in contact after each step, so that clusters reach through whole slabs.
+// Nearly all disks are in contact after each step, so clusters extend through whole slabs.
 TEST(SlabPairwiseRun, HasTheBitsWhereClustersReachThroughSlabs) {
   const Scene scene = slab_scene("periodic", "packing_fraction = 0.82\n",
                                  "count = 600\npositions = \"hexagonal\"\nradius = 0.5\nmass = 1.0\n"
@@ -52,8 +52,8 @@ TEST(SlabPairwiseRun, HasTheBitsWhereClustersReachThroughSlabs) {
   EXPECT_GT(expect_bits(scene, {2, 3, 4}).counters.collisions, 5'000U);
 }
 
-// A column of touching disks from floor to ceiling is one cluster of all slabs; what one end is given, the other
-// returns.
+// A column of touching disks from floor to ceiling is one cluster through all slabs; an impulse at one end comes out at
+// the other.
 TEST(SlabPairwiseRun, HasTheBitsWhereOneClusterIsAllSlabs) {
   std::string places;
   std::string velocities;
@@ -68,8 +68,8 @@ TEST(SlabPairwiseRun, HasTheBitsWhereOneClusterIsAllSlabs) {
   EXPECT_GT(expect_bits(scene, {2, 3, 4}).counters.collisions, 50U);
 }
 
-// Disks that stick together after meeting head on: a contact that is alone is resolved once, though by rounding it may
-// seem to approach still. All meet across the border of two slabs.
+// Disks that stick together after a head-on collision: a single contact is resolved once, even if by rounding it still
+// seems to approach. All disks meet across the border of two slabs.
 TEST(SlabPairwiseRun, ResolvesAContactThatIsAloneOnce) {
   std::string places;
   std::string velocities;
@@ -84,8 +84,8 @@ TEST(SlabPairwiseRun, ResolvesAContactThatIsAloneOnce) {
   EXPECT_GE(expect_bits(scene, {2, 3}).counters.collisions, 60U);
 }
 
-// Impacts send light disks between heavy ones further than the room beyond thin slabs, and past whole ones, as no step
-// is split for what happens in it.
+// Impacts send light disks between heavy ones further than the room beyond thin slabs, and past whole slabs, since a
+// step is not split because of its own impacts.
 TEST(SlabPairwiseRun, HasTheBitsWhereImpactsSendDisksFar) {
   for (const double height : {16.7, 21.6}) {
     SCOPED_TRACE(height);
@@ -95,8 +95,8 @@ TEST(SlabPairwiseRun, HasTheBitsWhereImpactsSendDisksFar) {
   }
 }
 
-// A light disk below each border flies up to one at rest above it, in a box of heavy disks at rest: too few leave their
-// cells for all to be sorted again, so that they are strays at the border.
+// A light disk below each border flies up to a disk at rest above it, in a box of heavy disks at rest: too few disks
+// leave their cells for a new sort, so those at the border are strays.
 TEST(SlabPairwiseRun, HasTheBitsWhereFewDisksLeaveTheirCells) {
   std::string places;
   std::string velocities;
@@ -107,7 +107,7 @@ TEST(SlabPairwiseRun, HasTheBitsWhereFewDisksLeaveTheirCells) {
     masses += fmt::format("{}, ", mass);
   };
   for (int k = 0; k < 1600; ++k) add(1.5 + 3.0 * (k % 20), 1.5 + 3.0 * (k / 20), 0.0, "1.0");
-  // The borders of two slabs and of three.
+  // The borders for two slabs and for three.
   int lane = 0;
   for (const double border : {121.5, 79.5, 160.5}) {
     add(9.0 + 12.0 * lane, border + 0.3, 0.0, "1.0");
@@ -120,7 +120,7 @@ TEST(SlabPairwiseRun, HasTheBitsWhereFewDisksLeaveTheirCells) {
   EXPECT_GE(expect_bits(scene, {2, 3}, RankThreads::alternate).counters.collisions, 3U);
 }
 
-// The box fills from one side: disks of sizes that none at the start has, and sinks that take them.
+// The box is filled from one side with disks of sizes that no disk of the start has, and sinks take them.
 TEST(LongSlabPairwiseRun, HasTheBitsWhereSourcesFillAnEmptyBox) {
   for (const char* radius : {"0.4", "{ uniform = [0.2, 0.5] }"}) {
     const Scene scene =
@@ -138,7 +138,7 @@ TEST(LongSlabPairwiseRun, HasTheBitsWhereSourcesFillAnEmptyBox) {
   }
 }
 
-// Strains of several units: the images above go round the box, and disks cross from the last slab into the first.
+// Strains of several units: the upper images go around the box, and disks cross from the last slab into the first.
 TEST(LongSlabPairwiseRun, HasTheBitsOfAShearFlow) {
   Scene scene = slab_scene("periodic", "width = 20.0\nheight = 20.0\nshear_rate = 0.7\n",
                            "count = 220\npositions = \"random\"\nradius = { uniform = [0.4, 0.5] }\nmass = 1.0\n"
@@ -156,7 +156,7 @@ TEST(LongSlabPairwiseRun, HasTheBitsOfAShearFlow) {
   }
 }
 
-// Reflections are counted disk by disk: one that goes to another slab takes its count with it.
+// Reflections are counted for each disk: one that moves to another slab takes its count along.
 TEST(SlabPairwiseRun, HasTheBitsBetweenThermalSides) {
   const Scene scene = parse_scene(
       "[box]\nwidth = 12.0\nheight = 24.0\nbottom = { temperature = 9.0 }\ntop = { temperature = 0.5 }\n"
@@ -169,8 +169,8 @@ TEST(SlabPairwiseRun, HasTheBitsBetweenThermalSides) {
   EXPECT_GT(local_trace(scene, start, {1, 1}, 4).most_moved, 0U);
 }
 
-// Steps are split on all ranks alike after kicks that make disks faster, newcomers that are fast or small, and sinks
-// that take the smallest.
+// Steps are split in the same way on all ranks, after kicks that make disks faster, after fast or small newcomers, and
+// after sinks that take the smallest.
 TEST(SlabPairwiseRun, SplitsStepsAsOneMachineDoes) {
   const auto scene = [](const std::string& box, const std::string& physics, const std::string& disks,
                         const std::string& end) {
@@ -196,11 +196,11 @@ TEST(SlabPairwiseRun, SplitsStepsAsOneMachineDoes) {
   for (const Scene& each : {kicked, emitted, taken}) {
     const test::SlabTrace trace = expect_bits(each, {2, 3}, RankThreads::alternate);
     EXPECT_GT(trace.counters.collisions, 5U);
-    EXPECT_FALSE(trace.warnings.empty()) << "of steps that are split";
+    EXPECT_FALSE(trace.warnings.empty()) << "split steps must be warned of";
   }
 }
 
-// The lowest disk touches the sink at the start, and another one would hit it within the first step.
+// The lowest disk touches the sink at the start, and another would hit it within the first step.
 TEST(SlabPairwiseRun, TakesWhatTouchesASinkBeforeTheFirstStep) {
   const Scene scene = parse_scene(
       "[box]\nwidth = 6.0\nheight = 24.0\nbottom = \"sink\"\n[[disks]]\ncount = 4\n"
@@ -219,7 +219,7 @@ TEST(SlabPairwiseRun, HasTheBitsOfASceneWithoutDisks) {
               {1, 3});
 }
 
-// A step that one machine refuses is refused with the same words on all ranks.
+// A step refused on a single machine is refused with the same message on all ranks.
 TEST(SlabPairwiseRun, EndsAsOneMachineWhereAStepIsFarTooLong) {
   const Scene scene = slab_scene("wall", "width = 30.0\nheight = 30.0\n",
                                  "count = 9\npositions = \"square\"\nradius = 0.5\nmass = 1.0\n"
@@ -244,7 +244,7 @@ TEST(SlabPairwiseRun, EndsAsOneMachineWhereAStepIsFarTooLong) {
   });
 }
 
-// What slabs do not do one rank does, with the same bits, and says why.
+// A scene that slabs cannot handle is run by one rank, with the same bits and the reason.
 void expect_one_rank(const Scene& scene, const std::string& why) {
   const State start = initial_state(scene);
   run_on_local_ranks(2, [&](Ranks& ranks) {
@@ -257,7 +257,7 @@ void expect_one_rank(const Scene& scene, const std::string& why) {
 
 TEST(SlabPairwiseAlone, RunsSlabsThinnerThanTwoDiametersOfTheLargestDisk) {
   Features f;
-  f.radii = "wide";  // the largest radius is 4, the box 18 high
+  f.radii = "wide";  // the largest radius is 4, and the box is 18 high
   const Scene scene = test::feature_scene(f, steps);
   const State start = initial_state(scene);
   run_on_local_ranks(
@@ -282,7 +282,7 @@ TEST(SlabCut, HasAsManyDisksInEachSlab) {
   EXPECT_EQ(cut.rank_at(7.5), 1);
   EXPECT_EQ(cut.rank_at(99.0), 3);
   EXPECT_EQ(cut.rank_at(101.0), 3);
-  // No slab is thinner than it must be.
+  // No slab is thinner than necessary.
   const SlabCut thick = cut_into_slabs(box, disks, 4, 25.0);
   EXPECT_EQ(thick.bounds, (std::vector<double>{0.0, 25.0, 50.0, 75.0, 100.0}));
   EXPECT_EQ(thick.thinnest(), 25.0);

@@ -1,5 +1,5 @@
-// `pairwise` on several ranks, at length: all combinations of features on every number of ranks and threads, and long
-// runs. The same and more in little: slab_pairwise_test.cpp.
+// `pairwise` on several ranks, thoroughly: all combinations of features on every number of ranks and threads, and long
+// runs. A smaller selection, and more: slab_pairwise_test.cpp.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ using test::slab_scene;
 
 class SlabFeatures : public ::testing::TestWithParam<const char*> {};
 
-// 15 steps: the sides that move would leave the box in 20.
+// There are 15 steps, since after 20 the moving sides would leave the box.
 TEST_P(SlabFeatures, HaveTheBitsOfOneMachineAfterEveryStep) {
   Count collisions = 0;
   const std::vector<Scene> scenes = test::slab_scenes(GetParam(), 15);
@@ -35,7 +35,7 @@ INSTANTIATE_TEST_SUITE_P(Sides, SlabFeatures,
                          ::testing::Values("wall", "periodic", "periodic_x", "soft", "sink", "moving", "hot"),
                          [](const auto& p) { return std::string(p.param); });
 
-// Long enough for cells to be sorted many times and for disks to go through all slabs.
+// Long enough for many sorts into cells, and for disks to move through all slabs.
 TEST(SlabRun, HasTheBitsWhileDisksMoveFromSlabToSlab) {
   const Scene scene = slab_scene("periodic", "width = 30.0\nheight = 40.0\n",
                                  "count = 400\npositions = \"random\"\nradius = 0.5\nmass = 1.0\n"
@@ -46,13 +46,13 @@ TEST(SlabRun, HasTheBitsWhileDisksMoveFromSlabToSlab) {
   EXPECT_GT(local_trace(scene, start, {1, 1}, 4).most_moved, 0U);
 }
 
-// Light disks between heavy ones that close in are sent through whole slabs within a step.
+// Light disks between approaching heavy ones are sent through whole slabs within a step.
 TEST(SlabRun, HasTheBitsWhereDisksGoFarInAStep) {
   const Scene scene = slab_scene("periodic", "width = 24.0\nheight = 16.0\n", light_between_heavy("1e-6"), 0.2, 40);
   EXPECT_GT(expect_bits(scene, {2, 3, 8}).counters.collisions, 200U);
 }
 
-// Elastic disks fall: slabs run empty and fill again.
+// Elastic disks fall: slabs become empty and fill again.
 TEST(SlabRun, HasTheBitsWhereSlabsRunEmpty) {
   const Scene scene = slab_scene("wall", "width = 30.0\nheight = 30.0\n[physics]\ngravity = 8.0\n",
                                  "count = 60\npositions = \"random\"\nradius = { uniform = [0.2, 0.6] }\n"

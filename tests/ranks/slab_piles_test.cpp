@@ -1,4 +1,5 @@
-// Piles on several ranks: disks that land, come to rest and bear loads, with the bits of one machine after every step.
+// Piles on several ranks: disks that land, come to rest and bear loads, with the bits of a single machine after every
+// step.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +18,7 @@ using test::light_between_heavy;
 using test::local_trace;
 using test::RankThreads;
 
-// What a pile of these disks in a box of this size is; restitution 0.5 where physics says nothing of it.
+// A pile of these disks in a box of this size; restitution 0.5 unless `physics` gives another.
 Scene pile(const std::string& box, const std::string& physics, const std::string& disks, double dt, int steps) {
   const std::string gravity = physics.find("gravity") == std::string::npos ? "gravity = 4.0\n" : "";
   const std::string restitution = physics.find("restitution") == std::string::npos ? "restitution = 0.5\n" : "";
@@ -31,7 +32,7 @@ std::string random_disks(int count, const std::string& sizes) {
                      sizes);
 }
 
-// From landing to rest: impacts, supports and pushing.
+// From landing to rest: impacts, supports and pushing apart.
 struct Landing {
   const char *name, *box, *physics, *sizes;
 };
@@ -80,7 +81,7 @@ TEST(LongSlabPiles, HaveTheBitsAmongObstacles) {
   EXPECT_GT(expect_bits(scene, {2, 3, 4}, RankThreads::alternate).counters.collisions, 100U);
 }
 
-// Poured in through the top and drained through a hole: slabs are cut anew, and loads go from rank to rank.
+// Disks are poured in through the top and drain through a hole: slabs are cut anew, and loads move from rank to rank.
 TEST(SlabPiles, HaveTheBitsWhileTheyArePouredAndDrained) {
   const Scene scene =
       pile("width = 12.0\nheight = 30.0\n", "",
@@ -97,8 +98,8 @@ TEST(SlabPiles, HaveTheBitsWhileTheyArePouredAndDrained) {
   EXPECT_GT(most, 20U);
 }
 
-// Ids in rows, in columns, and in columns of a lattice turned by a right angle: each contact waits for its neighbour's
-// all along a border, so that there are many rounds.
+// Ids in rows, in columns, and in columns of a lattice rotated by 90 degrees: along a border each contact waits for the
+// one before, so there are many rounds.
 TEST(LongSlabPiles, HaveTheBitsWhereIdsAreInOrderOfPlaces) {
   const auto lattice = [](bool in_columns) {
     std::string places;
@@ -125,15 +126,16 @@ TEST(LongSlabPiles, HaveTheBitsOnThinSlabs) {
   EXPECT_GT(expect_bits(scene, {8}, RankThreads::alternate).counters.collisions, 50U);
 }
 
-// Light disks between heavy ones are sent far by impacts and when they are pushed, with eight slabs beyond the next
-// one, and are pressed into others there.
+// Light disks between heavy ones are sent far by impacts and by pushing, across up to eight slabs, and are pressed into
+// others there.
 TEST(LongSlabPiles, HaveTheBitsWhereDisksAreSentFar) {
   const Scene scene = pile("width = 24.0\nheight = 16.0\n", "gravity = 0.5\nrestitution = 0.9\n",
                            "[[disks]]\n" + light_between_heavy("1e-5"), 0.02, 15);
   EXPECT_GT(expect_bits(scene, {3, 8}, RankThreads::alternate).counters.collisions, 100U);
 }
 
-// A column of disks that touch falls as one: at a border two of them have left their cells exactly as far as any.
+// A column of touching disks falls as one: at a border two of them have left their cells by exactly the largest
+// distance.
 TEST(SlabPiles, HaveTheBitsWhereAColumnThatTouchesFalls) {
   std::string places;
   std::string velocities;

@@ -1,5 +1,5 @@
-// Random scenes of all features on several ranks: the bits of one machine after every step. So a new feature that slabs
-// do not know yet cannot be passed over by them.
+// Random scenes with all features on several ranks: the bits of a single machine after every step. So no new feature
+// can be forgotten in slabs.
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -16,10 +16,10 @@ namespace {
 constexpr std::uint32_t shards = 4, scenes_a_shard = 500, wide_a_shard = 100;
 constexpr std::uint64_t seed = 19;
 struct RankCounts {
-  std::size_t on_slabs = 0, alone = 0;  // as of RankTrial
+  std::size_t on_slabs = 0, alone = 0;  // as in RankTrial
 };
 
-// Of a scene that can be made.
+// text: a scene that can be made.
 void compare_on_ranks(const std::string& text, RankCounts& ranks) {
   const fuzz::RankTrial trial = fuzz::try_on_ranks(text, "scene");
   ranks.on_slabs += trial.on_slabs;

@@ -1,4 +1,4 @@
-// Initial states that each rank makes for its slab: the disks of one machine, bit for bit.
+// Initial states made by each rank for its own slab: the disks of a single machine, bit for bit.
 #include "parallel/slabs/start_on_slabs.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@
 namespace carom {
 namespace {
 
-// box: lines of [box]; rest: the groups and what else there is.
+// box: lines of [box]; rest: groups and all other tables.
 Scene scene_of(const std::string& box, const std::string& rest) {
   return parse_scene("[box]\n" + box + rest + "[run]\nmethod = \"pairwise\"\ndt = 0.01\nt_end = 1.0\n", "scene", "");
 }
@@ -32,7 +32,7 @@ void expect_same(const Disk& a, const Disk& b) {
   EXPECT_TRUE(same_bits(a.spin, b.spin)) << a.id;
 }
 
-// The parts of all ranks are the state of one machine, and each part lies in its slab.
+// The parts of all ranks together are the state of a single machine, and each part is in its slab.
 void expect_parts(const Scene& scene, int count) {
   SCOPED_TRACE(fmt::format("{} ranks", count));
   ASSERT_TRUE(starts_on_slabs(scene));
@@ -70,7 +70,7 @@ void expect_parts(const Scene& scene, int count) {
     EXPECT_EQ(made->start.columns.spin, one.columns.spin);
   });
   EXPECT_EQ(disks, all.disks.size());
-  EXPECT_LT(most, 2 * disks / static_cast<std::size_t>(count) + 60) << "shared out unevenly";
+  EXPECT_LT(most, 2 * disks / static_cast<std::size_t>(count) + 60) << "unevenly distributed";
 }
 
 TEST(StartOnSlabs, IsThatOfOneMachine) {
@@ -104,7 +104,8 @@ TEST(StartOnSlabs, IsThatOfOneMachine) {
   }
 }
 
-// A trial is refused by the disks that one machine has placed before, wherever they are, and by no other.
+// A trial is rejected because of the disks that a single machine has placed before, wherever they are, and because of
+// no others.
 TEST(StartOnSlabs, PlacesAtRandomAsOneMachine) {
   const std::string random = "positions = \"random\"\nradius = 0.5\nvelocities = { maxwell = 2.0 }\n";
   const std::vector<Scene> scenes{
@@ -118,9 +119,10 @@ TEST(StartOnSlabs, PlacesAtRandomAsOneMachine) {
       scene_of(test::sides_text("moving", 1) + "width = 30.0\nheight = 50.0\n",
                "[[disks]]\ncount = 400\nmass = 1.0\n" + random +
                    "[[sources]]\nregion = [2.0, 4.0, 10.0, 14.0]\nrate = 7.0\nradius = 1.2\nmass = 1.0\n"),
-      // Batches in which most get in each other's way, and a slab hardly thicker than what it sees of others.
+      // Batches in which most trials conflict with each other, and slabs hardly thicker than what they see of their
+      // neighbours.
       scene_of(periodic + "width = 30.0\nheight = 9.0\n", "[[disks]]\ncount = 130\nmass = 1.0\n" + random),
-      // Large ones first, whichever group they are of; many that are equally large.
+      // Large disks are placed first, whichever group they belong to; many are equally large.
       scene_of(periodic + "width = 40.0\nheight = 60.0\n",
                "[[disks]]\ncount = 700\nmass = 1.0\npositions = \"random\"\nradius = { uniform = [0.1, 0.9] }\n"
                "[[disks]]\ncount = 300\nmass = 1.0\npositions = \"random\"\nradius = 0.3\n"
@@ -137,8 +139,8 @@ TEST(StartOnSlabs, PlacesAtRandomAsOneMachine) {
   }
 }
 
-// Where trials are many one machine learns where there is room: which cells are open, from a packing fraction of about
-// 0.39 on, and then a list of voxels, which is refined and halved. Ranks learn the same at the same disks.
+// If many trials fail, a single machine learns where there is room: which cells are open, from a packing fraction of
+// about 0.39 on, and then a list of voxels, which is refined and reduced. Ranks learn the same after the same disks.
 TEST(LongStartOnSlabs, LearnsWhereThereIsRoom) {
   const std::string random = "mass = 1.0\npositions = \"random\"\nradius = 0.5\n";
   const std::vector<Scene> scenes{
@@ -146,15 +148,15 @@ TEST(LongStartOnSlabs, LearnsWhereThereIsRoom) {
       scene_of(periodic + "packing_fraction = 0.5\n", "[[disks]]\ncount = 3000\n" + random),
       scene_of(periodic + "packing_fraction = 0.53\n", "[[disks]]\ncount = 1500\n" + random),
       scene_of(periodic + "packing_fraction = 0.546\n", "[[disks]]\ncount = 300\n" + random),
-      // A channel, which is not dense.
+      // A channel that is not dense.
       scene_of("width = 3.0\nheight = 2000.0\n", "[[disks]]\ncount = 2950\n" + random),
-      // Walls and inner walls, and a box that is not a whole number of voxels high.
+      // Walls and inner walls, and a box whose height is not a whole number of voxels.
       scene_of("width = 40.3\nheight = 61.7\n", "[[disks]]\ncount = 1420\n" + random +
                                                     "[[walls]]\npoints = [[1.0, 22.0], [20.0, 28.0], [21.0, 60.0]]\n"),
       scene_of(test::sides_text("moving", 1) + "width = 30.0\nheight = 50.0\n", "[[disks]]\ncount = 800\n" + random),
-      // Slabs hardly thicker than what they see of others.
+      // Slabs hardly thicker than what they see of their neighbours.
       scene_of(periodic + "width = 60.0\nheight = 9.0\n", "[[disks]]\ncount = 340\n" + random),
-      // Unequal disks: one class that learns, two that do, a large and a small one.
+      // Unequal disks: one class that learns, two that do, one large and one small disk.
       scene_of(periodic + "packing_fraction = 0.6\n",
                "[[disks]]\ncount = 2500\nmass = 1.0\npositions = \"random\"\nradius = { uniform = [0.3, 0.55] }\n"),
       scene_of(periodic + "packing_fraction = 0.66\n",
@@ -170,7 +172,7 @@ TEST(LongStartOnSlabs, LearnsWhereThereIsRoom) {
   }
 }
 
-// Where there is no room for the last one, one machine says so.
+// If there is no room for the last disk, the error comes from a single machine.
 TEST(StartOnSlabs, LeavesJammedDisksToOneMachine) {
   const Scene scene = scene_of("width = 12.0\nheight = 40.0\n",
                                "[[disks]]\ncount = 333\npositions = \"random\"\nradius = 0.5\nmass = 1.0\n");
@@ -185,7 +187,7 @@ TEST(StartOnSlabs, LeavesTooManyDisksToOneMachine) {
                                "[[disks]]\npositions = \"random\"\nmass = 1.0\ncount = 4000\nradius = 0.5\n")));
 }
 
-// Not of one machine's making: which disks overlap is its to say.
+// Errors come from a single machine: it finds which disks overlap.
 TEST(StartOnSlabs, LeavesWhatIsRefusedToOneMachine) {
   const std::vector<Scene> scenes{
       // The second lattice lies on the first.

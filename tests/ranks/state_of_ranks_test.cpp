@@ -1,4 +1,4 @@
-// What rank 0 gets of all disks of a run on several ranks, whole and in pieces: that of one machine.
+// What rank 0 gets of all disks of a run on several ranks, as a whole and in pieces, is that of a single machine.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ using test::gas;
 using test::on_ranks;
 using test::the_start;
 
-// The entries of a list, piece by piece; no piece is large.
+// The entries of a list, piece by piece; no piece may be large.
 std::vector<std::byte> entries_of(const StatePieces& pieces, StateList list, std::size_t largest) {
   std::vector<std::byte> all;
   pieces.visit(list, [&](std::span<const std::byte> some) {
@@ -36,7 +36,7 @@ std::vector<std::byte> entries_of(const StatePieces& pieces, StateList list, std
   return all;
 }
 
-// The state in pieces is the whole one, byte for byte and in the same order.
+// The state in pieces is the whole state, byte for byte and in the same order.
 void expect_whole_in_pieces(const Engine& engine) {
   const auto pieces = engine.pieces();
   std::vector<std::vector<std::byte>> lists;
@@ -51,8 +51,8 @@ void expect_whole_in_pieces(const Engine& engine) {
   EXPECT_EQ(pieces->part().next_id, whole.part().next_id);
 }
 
-// The disks of a moment in pieces are those of one machine, in order of id, whatever other moment was looked at since.
-// Returns whether their overlap is known without having them all.
+// The disks of a moment in pieces are those of a single machine, in order of ids, whatever other moments were looked at
+// in between. Returns whether their overlap is known without having all disks.
 bool expect_moment_in_pieces(const Engine& engine, const Engine& expected, double t, const Scene& scene) {
   Disks there;
   Disks room;
@@ -129,7 +129,7 @@ std::vector<Scene> scenes_of_all_sums() {
   return scenes;
 }
 
-// Sums and overlaps while rank 0 has not all disks; and a run goes on after memory was given back.
+// Sums and overlaps while rank 0 does not have all disks; and the run goes on after memory was freed.
 TEST(StateOfRanks, SaysOfAllDisksWhatOneMachineSays) {
   double deepest = 0.0;
   for (const Scene& scene : scenes_of_all_sums()) {
@@ -159,7 +159,7 @@ TEST(StateOfRanks, SaysOfAllDisksWhatOneMachineSays) {
   EXPECT_GT(deepest, 0.0);
 }
 
-// Sums go block by block in order of id; here over several pieces that ranks send, with ids that are missing.
+// Sums are formed block by block in order of ids; here over several pieces from the ranks, with missing ids.
 TEST(LongStateOfRanks, SumsManyDisksInOrderOfId) {
   const Scene scene = parse_scene(
       "[box]\nwidth = 300.0\nheight = 300.0\nright = \"sink\"\n[[disks]]\ncount = 70000\npositions = \"random\"\n"
@@ -190,7 +190,7 @@ TEST(LongStateOfRanks, SumsManyDisksInOrderOfId) {
   });
 }
 
-// At times within a window too, on slabs and where one rank runs all.
+// At times within a window, too, on slabs and when one rank runs all disks.
 TEST(StateOfRanks, HasAllDisksOfExactWithinWindows) {
   const Scene slabs = parse_scene(
       "[box]\nwidth = 12.0\nheight = 300.0\nleft = \"periodic\"\nright = \"periodic\"\n[[disks]]\ncount = 1200\n"
@@ -235,7 +235,7 @@ TEST(StateOfRanks, HasAllDisksOfExactWithinWindows) {
   EXPECT_GT(overlaps, 100);
 }
 
-// What a state has by id is that of the rank that has the disk.
+// Values by id in a state are those of the rank that has the disk.
 TEST(StateOfRanks, HasTheReflectionsOfAllDisks) {
   const Scene scene = parse_scene(
       "[box]\nwidth = 12.0\nheight = 24.0\nbottom = { temperature = 9.0 }\ntop = { temperature = 0.5 }\n"
@@ -259,7 +259,7 @@ TEST(StateOfRanks, HasTheReflectionsOfAllDisks) {
   });
 }
 
-// The same of the TC model's times: a checkpoint holds them, and other bits would follow from other times.
+// The same for the times of the TC model: a checkpoint has them, and other times would give other bits.
 TEST(StateOfRanks, HasTheContactTimesOfAllDisks) {
   const Scene scene = parse_scene(
       "[box]\nwidth = 20.0\nheight = 60.0\nleft = \"periodic\"\nright = \"periodic\"\n"
@@ -275,7 +275,7 @@ TEST(StateOfRanks, HasTheContactTimesOfAllDisks) {
       engine->step();
       expected->step();
     }
-    EXPECT_LT(engine->progress().disks.size(), start.disks.size()) << "one rank runs them all";
+    EXPECT_LT(engine->progress().disks.size(), start.disks.size()) << "one rank runs all disks";
     EXPECT_GT(lead.report().ranks[1].ghosts, 0U);
     expect_whole_in_pieces(*engine);
     EXPECT_EQ(engine->state().last_contact, expected->state().last_contact);
@@ -283,8 +283,7 @@ TEST(StateOfRanks, HasTheContactTimesOfAllDisks) {
   });
 }
 
-// What contacts of a pile have borne is that of the ranks that have their disks, at a border of both; it is part of
-// what a run goes on from.
+// The loads of a pile come from the ranks that have the disks, at a border from both; the run goes on from them.
 TEST(StateOfRanks, HasTheLoadsOfAllDisksAndGoesOnFromThem) {
   const Scene scene = parse_scene(
       "[box]\nwidth = 12.0\nheight = 14.0\n[physics]\ngravity = 4.0\nrestitution = 0.5\n[[disks]]\ncount = 110\n"
@@ -317,7 +316,7 @@ TEST(StateOfRanks, HasTheLoadsOfAllDisksAndGoesOnFromThem) {
   EXPECT_GT(start.loads.size(), 100U);
 }
 
-// A writer that gives up, as on a full disk, leaves ranks that go on.
+// If a writer gives up, as on a full disk, the ranks go on.
 TEST(StateOfRanks, GoesOnAfterAWriterGaveUp) {
   const Scene scene = gas("pairwise");
   const State start = initial_state(scene);
@@ -339,7 +338,7 @@ TEST(StateOfRanks, GoesOnAfterAWriterGaveUp) {
   });
 }
 
-// Two disks on two ranks, of which one is larger than any that the other rank has, or has left its slab.
+// Two disks on two ranks, one of which is larger than any disk of the other rank, or has left its slab.
 TEST(OverlapOverRanks, IsOfALargeDiskAndOfOneThatHasLeftItsSlab) {
   Domain box;
   box.width = 20.0;
