@@ -1,4 +1,4 @@
-// The C interface of libcarom.so given what it cannot take: a status and a text, and the world stays as it was.
+// The C interface of libcarom.so with bad arguments: there is a status and a text, and the world does not change.
 #include <carom/carom.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -119,7 +119,7 @@ TEST(CaromCErrors, ShortArraysAndNumbersThatAreNone) {
   const std::uint64_t before = carom_hash(world);
   const carom_disk bad{nan_number, 5.0, 0.0, 0.0, 0.1, 1.0, 0};
   EXPECT_EQ(carom_add(world, &bad, nullptr), CAROM_INPUT);
-  const carom_disk large{10.0, 5.0, 0.0, 0.0, 5.5, 1.0, 0};  // no place in the box is one for it
+  const carom_disk large{10.0, 5.0, 0.0, 0.0, 5.5, 1.0, 0};  // there is no room for it anywhere in the box
   EXPECT_EQ(carom_add(world, &large, nullptr), CAROM_INPUT);
   EXPECT_STREQ(carom_error(world),
                "radius: is 5.5; expected at most 5, half the box, for a disk that has to lie inside it");
@@ -131,7 +131,7 @@ TEST(CaromCErrors, ShortArraysAndNumbersThatAreNone) {
   EXPECT_EQ(carom_hash(world), before);
 }
 
-// A step far too long ends with a status, and the world can be looked at all the same.
+// A step that is far too long returns an error, but the world can still be looked at.
 TEST(CaromCErrors, PhysicsThatCannotGoOn) {
   World world(box());
   world.add({5.0, 5.0, 1e6, 0.0, 0.1, 1.0, 0});
@@ -140,7 +140,7 @@ TEST(CaromCErrors, PhysicsThatCannotGoOn) {
   EXPECT_EQ(world.size(), 1U);
 }
 
-// A program has no command line: remedies are keys of the scene.
+// A program has no command line, so remedies in messages are keys of the scene.
 TEST(CaromCErrors, RemediesAreNoOptionsOfACommandLine) {
   const auto world_of = [](const std::string& keys, const std::string& run) {
     const std::string text = "[box]\nwidth = 10.0\nheight = 10.0\n" + keys +
@@ -161,7 +161,7 @@ TEST(CaromCErrors, RemediesAreNoOptionsOfACommandLine) {
   EXPECT_THAT(told + collapse, testing::Not(HasSubstr("--")));
 }
 
-// Any call, with good numbers and bad ones.
+// Random calls, with valid numbers and invalid ones.
 class RandomCalls {
  public:
   RandomCalls(World& owner, carom::test::Draws& draw) : owner_(owner), draw_(draw) { owner.save(saved_); }
@@ -216,7 +216,7 @@ class RandomCalls {
   std::vector<std::byte> saved_;
 };
 
-// Whatever is called in whatever order: a status, and the world stays one.
+// For any order of calls there is a status, and the world stays valid.
 TEST(CaromCErrors, RandomCallsLeaveAWorld) {
   carom::test::Draws draw(11);
   for (const int method : {CAROM_EXACT, CAROM_PAIRWISE, CAROM_ROLLBACK}) {

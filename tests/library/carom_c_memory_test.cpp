@@ -1,4 +1,4 @@
-// A world whose host program has no memory left: a call fails, the program goes on, and the world is as it was.
+// A world in a program without memory left: a call fails, the program goes on, and the world is as it was.
 #include <carom/carom.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ struct Call {
   std::function<carom_status(carom_world*)> make;
 };
 
-// A world of some disks that has made some steps.
+// A world of some disks after some steps.
 carom_world* make_world(const char* method) {
   const std::string text = std::string(R"(
     [box]
@@ -86,7 +86,7 @@ carom_world* loaded(const std::string& bytes) {
   return world;
 }
 
-// The hash after the call and a step more.
+// The hash after the call and one more step.
 std::uint64_t hash_after(const Call& call, carom_world* world) {
   EXPECT_EQ(call.make(world), CAROM_OK) << carom_error(world);
   EXPECT_EQ(carom_step(world, 1), CAROM_OK) << carom_error(world);
@@ -95,8 +95,8 @@ std::uint64_t hash_after(const Call& call, carom_world* world) {
   return hash;
 }
 
-// With memory for n allocations, until they are enough: the world is as it was before the call; or its state is lost,
-// and says so until another one is loaded. Nothing goes on from one that is half changed.
+// Repeats the call with memory for n allocations, until that is enough. If it fails, either the world is as it was
+// before, or its state is lost, which is reported until another state is loaded. No world may go on half changed.
 void expect_all_or_nothing(const Call& call, const std::string& start) {
   const std::uint64_t expected = hash_after(call, loaded(start));
   for (std::size_t n = 0; n < 5000; ++n) {
@@ -115,7 +115,7 @@ void expect_all_or_nothing(const Call& call, const std::string& start) {
     ASSERT_EQ(carom_hash(world), before) << n;
     ASSERT_EQ(hash_after(call, world), expected) << n;
   }
-  FAIL() << "memory is never enough";
+  FAIL() << "the call fails with any amount of memory";
 }
 
 TEST(CaromCMemory, CallsFailAndTheWorldIsAsItWasOrSaysThatItIsLost) {

@@ -1,4 +1,4 @@
-// The C interface of libcarom.so: what it promises of statuses, texts and bits.
+// The C interface of libcarom.so: its statuses, texts and bits.
 #include <carom/carom.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -68,7 +68,7 @@ TEST(CaromC, HasTheBitsOfASimulation) {
   }
 }
 
-// As a part of a larger text, or of a file that is mapped.
+// The text may be part of a larger text, or of a mapped file.
 TEST(CaromC, ATextIsAsLongAsItIsSaidToBe) {
   const std::string longer = std::string(gas) + "no TOML";
   const World world = World::from_text(std::string_view(longer).substr(0, gas.size()));
@@ -99,7 +99,7 @@ TEST(CaromC, StructAndTextAreTheSameScene) {
   EXPECT_EQ(of_struct.hash(), of_text.hash());
 }
 
-// Diffusion too, where that is given.
+// Also diffusion, if it is given.
 TEST(CaromC, DisksOfAStructMayDiffuse) {
   carom_scene scene = box();
   scene.diffusion = 0.5;
@@ -115,7 +115,8 @@ TEST(CaromC, DisksOfAStructMayDiffuse) {
   EXPECT_EQ(of_struct.hash(), of_text.hash());
 }
 
-// Each number is its own: disks that come, that go, and those there, and what energy they have under gravity.
+// Each function returns its own number: disks that come, disks that go, present disks, and their energies under
+// gravity.
 TEST(CaromC, CountsAndEnergiesAreThoseOfTheSimulation) {
   const std::string flow =
       "[box]\nwidth = 20\nheight = 10\nright = \"sink\"\n[physics]\ngravity = 0.5\n[[disks]]\ncount = 1\n"
@@ -161,7 +162,7 @@ TEST(CaromC, HasSpinsWhereDisksAreRough) {
     EXPECT_EQ(disks[k].spin, spins[k]);
     most = std::max(most, std::abs(spins[k]));
   }
-  EXPECT_GT(most, 0.1) << "collisions have turned them";
+  EXPECT_GT(most, 0.1) << "collisions must have changed the spins";
   world.remove(0);
   const std::optional<std::uint32_t> id = world.add({disks[0].x, disks[0].y, 0.0, 0.0, 0.01, 1.0, 0, -2.5});
   ASSERT_TRUE(id);
@@ -171,7 +172,7 @@ TEST(CaromC, HasSpinsWhereDisksAreRough) {
   EXPECT_EQ(smooth.find(smooth.add({5.0, 5.0, 0.0, 0.0, 1.0, 1.0, 0, std::nan("")}).value())->spin, 0.0);
 }
 
-// As trajectories have them: ids run on from table to table, fixed disks among them, and later ids are of no table.
+// As in trajectories, ids go on from table to table, including fixed disks, and later ids belong to no table.
 TEST(CaromC, GroupsAreTheTablesOfTheScene) {
   World world = World::from_text(
       "[box]\nwidth = 20\nheight = 10\n[[disks]]\ncount = 2\npositions = [[3, 3], [3, 6]]\nradius = 0.5\nmass = 1\n"
@@ -225,7 +226,7 @@ TEST(CaromC, InnerWallsStopRays) {
   EXPECT_FALSE(world.cast_ray(10, 7, -1, 0, 9));
 }
 
-// Fixed disks are seen, though the world does not count them.
+// Fixed disks are found, although they do not count in the world's size.
 TEST(CaromC, DisksInARectangleMayBeFixedOnes) {
   World world = World::from_text(
       "[box]\nwidth = 20\nheight = 10\n[[disks]]\ncount = 1\npositions = [[3, 3]]\nradius = 0.5\nmass = 1\n"

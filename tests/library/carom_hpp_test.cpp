@@ -1,4 +1,4 @@
-// The C++ layer of carom.hpp, and the functions of carom.h under it that give one thing at a time.
+// The C++ layer carom.hpp, and functions of carom.h that it builds on.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ using carom::World;
 using carom::test::box;
 using testing::HasSubstr;
 
-// A step far too long: some disks move more than their radius, and reach into walls.
+// A step that is far too long: some disks move by more than their radius, and reach into walls.
 constexpr std::string_view hasty = R"(
 [box]
 width = 10.0
@@ -100,13 +100,13 @@ TEST(CaromHpp, AFunctionSaysHowLongARunGoesOn) {
   EXPECT_NEAR(world.time(), 0.5, 1e-9);
   world.step(7);
   EXPECT_EQ(world.steps(), 57U);
-  int left = 3;  // in C whatever is not 0 goes on
+  int left = 3;  // in C any value but 0 means to go on
   const auto go_on = [](void* number) { return -(*static_cast<int*>(number))--; };
   EXPECT_EQ(carom_run_while(world.get(), 1.0, go_on, &left), CAROM_OK);
   EXPECT_EQ(world.steps(), 60U);
 }
 
-// The files that a scene names lie beside it.
+// Files named in a scene are beside it.
 TEST(CaromHpp, AFileIsTheSceneOfItsText) {
   const carom::test::TestFolder folder("AFileIsTheSceneOfItsText");
   std::string text(hasty);
@@ -130,7 +130,7 @@ TEST(CaromHpp, ChangesReachTheDiskThatIsMeant) {
   EXPECT_TRUE(world.remove(0));
   EXPECT_FALSE(world.find(0));
   const carom_disk disk{5.0, 4.0, 0.0, 0.0, 0.5, 1.0, 0};
-  EXPECT_EQ(carom_add(world.get(), &disk, nullptr), CAROM_OK) << "the id need not be asked for";
+  EXPECT_EQ(carom_add(world.get(), &disk, nullptr), CAROM_OK) << "the id may be omitted";
   EXPECT_EQ(world.find(2)->x, 5.0);
 }
 
@@ -147,7 +147,7 @@ TEST(CaromHpp, TheNearestDiskAndTheFirstOnARay) {
   EXPECT_DOUBLE_EQ(hit.distance, 5.5);
   EXPECT_DOUBLE_EQ(hit.x, 15.0);
   EXPECT_DOUBLE_EQ(hit.y, 3.5);
-  EXPECT_FALSE(world.cast_ray(15.0, 9.0, 0.0, -2.0, 5.0)) << "too short";
+  EXPECT_FALSE(world.cast_ray(15.0, 9.0, 0.0, -2.0, 5.0)) << "the ray is too short";
   world.remove(0);
   world.remove(1);
   EXPECT_FALSE(world.nearest(4.0, 9.0));
@@ -155,7 +155,8 @@ TEST(CaromHpp, TheNearestDiskAndTheFirstOnARay) {
   EXPECT_STREQ(carom_error(world.get()), "there are no disks");
 }
 
-// exact: at that time; otherwise at the end of the step, and the time says so.
+// With exact the disks are those of the time asked for; otherwise those of the step's end, which the time returned
+// says.
 TEST(CaromHpp, DisksOfATimeWithinTheLastStep) {
   for (const int method : {CAROM_EXACT, CAROM_PAIRWISE}) {
     World world = two_disks(method);
@@ -171,7 +172,7 @@ TEST(CaromHpp, DisksOfATimeWithinTheLastStep) {
     EXPECT_EQ(carom_disks_at(world.get(), within, then.data(), 2, &count, nullptr), CAROM_OK);
     count = 0;
     EXPECT_EQ(carom_disks_at(world.get(), within, then.data(), 1, &count, &time), CAROM_INPUT);
-    EXPECT_EQ(count, 2U) << "how many there are, all the same";
+    EXPECT_EQ(count, 2U) << "the number of disks is returned nevertheless";
     EXPECT_EQ(carom_disks_at(world.get(), within, nullptr, 2, &count, &time), CAROM_INPUT);
     EXPECT_EQ(carom_disks_at(world.get(), -0.5, then.data(), 2, &count, &time), CAROM_INPUT);
     EXPECT_THAT(carom_error(world.get()), HasSubstr("before the last step"));
@@ -181,7 +182,7 @@ TEST(CaromHpp, DisksOfATimeWithinTheLastStep) {
   }
 }
 
-// More than size(): a disk that a sink took in the last step is there before that.
+// More than size() disks: one that a sink took in the last step exists before that.
 TEST(CaromHpp, DisksOfATimeBeforeASinkTookThem) {
   carom_scene scene = box(CAROM_EXACT);
   scene.right = CAROM_SINK;
@@ -213,7 +214,7 @@ TEST(CaromHpp, AnEmptyWorldNeedsNoArrays) {
   EXPECT_TRUE(world.disks().empty());
 }
 
-// Arrays of numbers have room for half as many disks.
+// These arrays have room for half as many disks.
 TEST(CaromHpp, RoomIsCountedInDisks) {
   const World world = two_disks(CAROM_PAIRWISE);
   std::vector<double> xy(4), three(3), one(1);
@@ -232,7 +233,7 @@ TEST(CaromHpp, RoomIsCountedInDisks) {
   EXPECT_STREQ(carom_error(world.get()), "the array has room for 1 disk, and there are 2");
 }
 
-// Two disks in a channel meet more often in a window than there are disks.
+// Two disks in a channel make more contacts in a window than there are disks.
 TEST(CaromHpp, MoreContactsThanDisks) {
   carom_scene scene = box(CAROM_EXACT);
   scene.height = 2.5;

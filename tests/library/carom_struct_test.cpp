@@ -1,4 +1,4 @@
-// What the structs of carom.h say of a world, field by field, and what they are where nothing is said.
+// The structs of carom.h: the effect of each field on a world, and the defaults.
 #include <carom/carom.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ dt = 0.01
 t_end = 5.0
 )";
 
-// The scene that a world has, as what it saves has it.
+// The scene of a world, taken from what it saves.
 carom::Scene scene_of(const carom_scene& told) {
   std::vector<std::byte> saved;
   World(told).save(saved);
@@ -106,7 +106,7 @@ TEST(CaromStruct, EveryFieldOfASceneIsItsOwn) {
 
   told.left = told.bottom = CAROM_SINK;
   told.right = told.top = CAROM_PERIODIC;
-  EXPECT_THROW(World{told}, carom::Error) << "of opposite sides both are periodic, or none";
+  EXPECT_THROW(World{told}, carom::Error) << "opposite sides must both be periodic or neither";
   told.left = told.bottom = CAROM_PERIODIC;
   EXPECT_TRUE(scene_of(told).box.periodic_x() && scene_of(told).box.periodic_y());
 }
@@ -134,7 +134,8 @@ TEST(CaromStruct, NamesTheFieldThatIsWrong) {
   EXPECT_THAT(complaint([](carom_scene& s) { s.wall_restitution = -0.5; }), HasSubstr("wall_restitution: is -0.5"));
 }
 
-// No bit depends on them, so they are looked for elsewhere: in what is saved, and among the threads of the process.
+// Results do not depend on these fields, so their effect is looked for in what is saved, and in the threads of the
+// process.
 TEST(CaromStruct, TheReferenceIsTheOneThatSteps) {
   for (const int reference : {0, 1}) {
     World world(carom::default_scene(), {1, reference});
@@ -149,7 +150,8 @@ std::ptrdiff_t threads_of_the_process() {
   return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
 }
 
-// In a process of its own, where no test before has begun threads. Returns how many more a world of so many makes.
+// The number of threads that making a world with this number adds. To be called in a process of its own, in which no
+// earlier test has started threads.
 int threads_that_come(int threads) {
   World alone = World::from_text(gas, {1, 0});
   alone.step(20);
@@ -164,7 +166,7 @@ TEST(CaromStructDeathTest, AWorldHasTheThreadsThatItIsGiven) {
   EXPECT_EXIT(std::_Exit(threads_that_come(2)), testing::ExitedWithCode(1), "");
   if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "all cores are one";
   const auto some = [](int status) { return WIFEXITED(status) && WEXITSTATUS(status) > 0; };
-  EXPECT_EXIT(std::_Exit(threads_that_come(0)), some, "") << "0 is all cores";
+  EXPECT_EXIT(std::_Exit(threads_that_come(0)), some, "") << "0 means all cores";
 }
 
 TEST(CaromStruct, ThreadsHaveALimit) {
@@ -180,7 +182,7 @@ TEST(CaromStruct, ThreadsHaveALimit) {
   EXPECT_EQ(World(carom::default_scene(), {0, 0}).size(), 0U);
 }
 
-// Numbers of a scene's text are read, and energies summed, as if the host had not set another rounding mode.
+// The numbers of a scene's text are read, and energies are summed, independently of the rounding mode of the host.
 TEST(CaromStruct, NoNumberDependsOnTheRoundingOfTheHost) {
   const World usual = World::from_text(gas);
   std::fesetround(FE_UPWARD);

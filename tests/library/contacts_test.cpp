@@ -1,4 +1,4 @@
-// The contacts of the last step: of all pairs, and the same by every engine.
+// The contacts of the last step: complete, and the same from every engine.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ Pairs pairs_of(const std::vector<DiskContact>& contacts) {
   return pairs;
 }
 
-// As pairwise finds them: all pairs that touch when every disk has moved on by dt.
+// The contacts of pairwise: all pairs that touch when every disk has moved on by dt.
 Pairs touching_after(const Disks& d, const Domain& box, double dt) {
   Pairs pairs;
   for (std::size_t i = 0; i < d.size(); ++i) {
@@ -73,7 +73,7 @@ double gap_of(const Disks& d, const Domain& box, const DiskContact& c) {
   return std::sqrt(nearest_distance2({d.x[j] - d.x[i], d.y[j] - d.y[i]}, box)) - d.radius_of(i) - d.radius_of(j);
 }
 
-// Disks of a contact touch at its time; there are as many as the engine has counted, so that none is missing.
+// The disks of a contact touch at its time, and there are as many contacts as the engine counts, so none is missing.
 TEST(Contacts, ExactHasEveryCollisionOfTheWindow) {
   Simulation s = of(gas("exact", around, 60));
   for (int k = 0; k < 20; ++k) {
@@ -93,7 +93,7 @@ TEST(Contacts, ExactHasEveryCollisionOfTheWindow) {
   EXPECT_GT(s.state().counters.collisions, 50U);
 }
 
-// Sinks take disks at the end of the step in which these met others.
+// Sinks take disks at the end of the step in which they have met others.
 TEST(Contacts, AreThoseOfTheReference) {
   for (const std::string method : {"exact", "pairwise", "rollback"}) {
     for (const std::string& sides : {std::string(), around, sink, inner_sink}) {

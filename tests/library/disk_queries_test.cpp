@@ -1,4 +1,4 @@
-// Queries against all disks and all their images.
+// Queries compared with a search over all disks and all their images.
 #include "run/simulation/disk_queries.hpp"
 
 #include <gmock/gmock.h>
@@ -34,7 +34,7 @@ Simulation gas(const Gas& g) {
   return Simulation(parse_scene(text, "gas.toml", ""), choose_engine("parallel", 1));
 }
 
-// Every image within a box of the box, of fixed disks too.
+// Calls look() for the images within one period, including those of fixed disks.
 template <class Look>
 void for_each_image(const Simulation& s, int around, const Look& look) {
   Disks d = s.disks();
@@ -49,7 +49,7 @@ void for_each_image(const Simulation& s, int around, const Look& look) {
   }
 }
 
-// The entry point by the plain quadratic.
+// The entry point from the plain quadratic formula.
 double plain_entry(Vec2 centre, double radius, Vec2 from, Vec2 unit) {
   const double x = from.x - centre.x, y = from.y - centre.y;
   const double b = x * unit.x + y * unit.y, c = x * x + y * y - radius * radius;
@@ -83,7 +83,7 @@ void check_all(const Simulation& s, test::Draws& draw) {
     EXPECT_EQ(found->id, nearest.id);
     EXPECT_NEAR(found->distance, nearest.distance, 1e-9);
     const std::optional<RayHit> met = s.cast_ray(place, {3.0 * unit.x, 3.0 * unit.y}, length);
-    const bool outside = hit.distance > length;  // walls end the line, and all disks lie inside
+    const bool outside = hit.distance > length;  // walls end the line, and all disks are inside
     ASSERT_EQ(met.has_value(), !outside);
     if (outside) continue;
     EXPECT_EQ(met->id, hit.id);
@@ -114,8 +114,8 @@ TEST(DiskQueries, AgreeWithAllDisksAndImages) {
   }
 }
 
-// Rays among inner walls, polylines with sharp corners and sinks among them: against every disk and every image of
-// every segment.
+// Rays among inner walls, including polylines with sharp corners and sinks, compared with a search over every disk and
+// every image of every segment.
 TEST(DiskQueries, RaysEndAtInnerWalls) {
   const std::string around = "left = \"periodic\"\nright = \"periodic\"\n";
   const std::string both = around + "bottom = \"periodic\"\ntop = \"periodic\"\n";
@@ -142,7 +142,7 @@ TEST(DiskQueries, RaysEndAtInnerWalls) {
           if ((kx != 0 && !box.periodic_x()) || (ky != 0 && !box.periodic_y())) continue;
           const double x = o.x + kx * box.width - place.x, y = o.y + ky * box.height - place.y;
           const double side = unit.x * y - unit.y * x, other = unit.x * (y + o.dy) - unit.y * (x + o.dx);
-          if (side * other > 0.0) continue;  // both ends on one side of the ray
+          if (side * other > 0.0) continue;  // both ends are on the same side of the ray
           const double share = side / (side - other);
           const double t = (x + share * o.dx) * unit.x + (y + share * o.dy) * unit.y;
           if (t >= 0.0 && t < hit.distance) {
@@ -170,7 +170,7 @@ TEST(DiskQueries, OfFixedDisksAlone) {
   check_all(s, draw);
 }
 
-// Of two disks that a ray meets at one distance the one with the smaller id, however they are stored.
+// Of two disks that a ray meets at the same distance the one with the smaller id is returned, however they are stored.
 TEST(DiskQueries, OfTwoAtOneDistanceTheSmallerId) {
   for (const bool swapped : {false, true}) {
     const std::string places = swapped ? "[[12.0, 4.75], [12.0, 5.25]]" : "[[12.0, 5.25], [12.0, 4.75]]";
@@ -203,9 +203,9 @@ TEST(DiskQueries, RefuseWhatIsNoPlaceOrLine) {
   EXPECT_THROW(s.cast_ray({1.0, 1.0}, {0.0, 0.0}, 1.0), InputError);
   EXPECT_THROW(s.cast_ray({1.0, 1.0}, {1.0, 0.0}, infinity), InputError);
   EXPECT_THROW(s.cast_ray({1.0, 1.0}, {1.0, 0.0}, 1e12), InputError);
-  EXPECT_THROW(s.cast_ray({1.0, 1.0}, {1.0, 0.0}, -1.0), InputError) << "is no line the other way";
+  EXPECT_THROW(s.cast_ray({1.0, 1.0}, {1.0, 0.0}, -1.0), InputError) << "a negative length must not reverse the ray";
   EXPECT_THROW(s.cast_ray({nan, 1.0}, {1.0, 0.0}, 1.0), InputError);
-  EXPECT_NO_THROW(s.cast_ray({1.0, 1.0}, {0.0, 1.0}, 1e12));  // ends at the wall
+  EXPECT_NO_THROW(s.cast_ray({1.0, 1.0}, {0.0, 1.0}, 1e12));  // it ends at the wall
 }
 
 }  // namespace

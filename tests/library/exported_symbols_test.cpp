@@ -1,4 +1,4 @@
-// What libcarom.so exports.
+// The symbols exported by libcarom.so.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -8,7 +8,7 @@
 
 namespace {
 
-// Pinned: what a program built against libcarom.so.0 may call, and nothing of the libraries inside.
+// They are fixed: a program built against libcarom.so.0 may call these, and no function of the libraries inside.
 TEST(ExportedSymbols, AreWhatTheHeaderDeclaresAndNothingElse) {
   std::set<std::string> exported;
   FILE* const symbols = popen("nm -D --defined-only --format=posix '" CAROM_SHARED "'", "r");

@@ -1,4 +1,4 @@
-// A host program's rounding mode and flush-to-zero change no bit, and are as they were afterwards.
+// The rounding mode and flush-to-zero of a host program change no bit, and are the same after a call as before.
 #include "core/base/float_environment.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,8 @@ constexpr unsigned flush_to_zero = 0x8040U;  // FTZ and DAZ
 constexpr unsigned flush_to_zero = 0;
 #endif
 
-// As libraries leave it that were built with -ffast-math, and rounding upwards besides.
+// A host whose floating-point environment is as left by libraries built with -ffast-math, with rounding upwards as
+// well.
 class HostileHost {
  public:
   HostileHost() {
@@ -83,7 +84,7 @@ TEST(FloatEnvironment, NumbersAreTheUsualOnesInside) {
     const FloatEnvironment environment;
     EXPECT_LT(one / third, up);
     EXPECT_GT(tiny * 1.0, 0.0);
-    EXPECT_EQ(std::strtod("0.3", nullptr), 0.3) << "as a scene's numbers may be read";
+    EXPECT_EQ(std::strtod("0.3", nullptr), 0.3) << "the numbers of a scene may be read like this";
   }
   EXPECT_TRUE(HostileHost::is_as_set());
   EXPECT_GT(std::strtod("0.3", nullptr), 0.3);
@@ -129,7 +130,7 @@ TEST(FloatEnvironment, SimulationAndRunHaveTheSameBits) {
   }
 }
 
-// The times of contacts are computed when they are asked for, and some changes when they are made.
+// Times of contacts are computed when they are asked for, and some changes at once.
 TEST(FloatEnvironment, ContactsAndChangesHaveTheSameBits) {
   for (const char* method : {"pairwise", "exact", "rollback"}) {
     for (const char* engine : {"parallel", "reference"}) {
@@ -156,7 +157,7 @@ TEST(FloatEnvironment, ContactsAndChangesHaveTheSameBits) {
   }
 }
 
-// A checkpoint holds the energies of the start, which are summed anew where disks came before the first step.
+// A checkpoint contains the energies of the start, which are summed again if disks were added before the first step.
 TEST(FloatEnvironment, SavedStatesHaveTheSameBits) {
   const auto saved = [](bool hostile) {
     Simulation s(test::gas("exact"), choose_engine("", 1));

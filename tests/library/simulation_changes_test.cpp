@@ -1,4 +1,5 @@
-// carom::Simulation: disks added, removed and redirected between steps have the reference's bits, and what is refused.
+// carom::Simulation: adding, removing and redirecting disks between steps gives the bits of the reference; and refused
+// changes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +23,7 @@ using test::choice;
 using test::gas;
 using test::methods;
 
-// The same changes at the same steps, on both engines.
+// The same changes are made at the same steps with both engines.
 TEST(SimulationChanges, ChangesBetweenStepsHaveTheReferencesBits) {
   for (const char* method : methods) {
     const auto hash = [&](const EngineChoice& engine) {
@@ -56,8 +57,8 @@ TEST(SimulationChanges, ChangesBetweenStepsHaveTheReferencesBits) {
   }
 }
 
-// What is changed before the first step belongs to the start with which a summary compares: the energy is kept, and the
-// pressure is known. So it is after saving; a later change is one of the run.
+// Changes before the first step belong to the start of the summary: there is no gain of energy, and the pressure is
+// known. The same holds after saving. Later changes are part of the run.
 TEST(SimulationChanges, ThoseBeforeTheFirstStepBelongToTheStart) {
   Simulation s(
       parse_scene("[box]\nwidth = 5.0\nheight = 5.0\n[[disks]]\ncount = 2\npositions = [[1.0, 1.0], [3.0, 3.0]]\n"
@@ -79,7 +80,7 @@ TEST(SimulationChanges, ThoseBeforeTheFirstStepBelongToTheStart) {
   }
 }
 
-// A disk of radius 0.3 at the first free one of eight random places.
+// Adds a disk of radius 0.3 at the first free one of eight random places.
 bool add_where_there_is_room(Simulation& s, Vec2 velocity, test::Draws& draw) {
   const Domain& box = s.scene().box;
   for (int k = 0; k < 8; ++k) {
@@ -113,7 +114,8 @@ std::uint64_t hash_after_changes(const Scene& scene, const EngineChoice& engine,
     s.step(steps);
     stepped += steps > 0;
   }
-  EXPECT_GT(std::min({removed, redirected, added, stepped}), 1) << "of each kind of change, and steps between them";
+  EXPECT_GT(std::min({removed, redirected, added, stepped}), 1)
+      << "there must be changes of each kind, and steps in between";
   return s.hash();
 }
 
@@ -135,8 +137,8 @@ TEST(LongSimulationChanges, ManyChangesHaveTheReferencesBits) {
   }
 }
 
-// One of three kinds of change, the same to both; new disks come two at a time, and the second one flies into the
-// first.
+// Makes one of three kinds of change in both simulations; new disks come in pairs, of which the second disk flies into
+// the first.
 void change_both(Simulation& one, Simulation& other, bool mixed, test::Draws& draw) {
   const auto id = static_cast<DiskId>(draw.bits() % one.state().next_id);
   const Vec2 v{draw.in(-4.0, 4.0), draw.in(-4.0, 4.0)};
@@ -154,7 +156,8 @@ void change_both(Simulation& one, Simulation& other, bool mixed, test::Draws& dr
   EXPECT_EQ(one.add(second), other.add(second));
 }
 
-// And each disk is found where it is, however far it has left the cell that it was sorted into, and each contact once.
+// Each disk must be found where it is, however far it has left the cell into which it was sorted, and each contact
+// once.
 TEST(SimulationChanges, ManyInASmallBoxHaveTheReferencesBitsAfterEachStep) {
   for (const char* radius : {"0.3", "{ uniform = [0.1, 0.4] }"}) {
     const bool mixed = radius[0] == '{';
@@ -181,7 +184,7 @@ TEST(SimulationChanges, ManyInASmallBoxHaveTheReferencesBitsAfterEachStep) {
   }
 }
 
-// The last disk takes the place of one that goes, and may go from there itself.
+// The last disk takes the storage place of a removed one, and may be removed from there itself.
 TEST(SimulationChanges, DisksInThePlacesOfOthersMeetOnce) {
   for (const char* radius : {"0.3", "{ uniform = [0.1, 0.4] }"}) {
     const Scene scene = parse_scene(std::string("[box]\npacking_fraction = 0.5\n[[disks]]\ncount = 500\nmass = 1.0\n"
@@ -203,7 +206,7 @@ TEST(SimulationChanges, DisksInThePlacesOfOthersMeetOnce) {
   }
 }
 
-// The cells of the lists were made for disks of a few sizes, none as small.
+// The cells of the lists were made for disks of a few sizes, none of them as small.
 TEST(SimulationChanges, AddsADiskSmallerThanAllWithTheReferencesBits) {
   for (const char* radius : {"0.3", "{ uniform = [0.3, 0.5] }", "{ uniform = [0.1, 0.6] }"}) {
     const Scene scene =
@@ -229,7 +232,7 @@ TEST(SimulationChanges, AddsADiskSmallerThanAllWithTheReferencesBits) {
   }
 }
 
-// A step is split by the fastest and the smallest disk that there are after a change, not by those before.
+// A step is split according to the fastest and the smallest disk after a change, not before it.
 TEST(SimulationChanges, ChangesSplitStepsAsTheReferenceDoes) {
   const auto expect_same = [](const std::string& radii, double speed, const auto& change) {
     const std::string text =
@@ -251,7 +254,7 @@ TEST(SimulationChanges, ChangesSplitStepsAsTheReferenceDoes) {
   expect_same("[0.05, 0.5, 0.5]", 10.0, [](Simulation& s) { s.remove(0); });
 }
 
-// So many that the one that has come is not sorted among them at once.
+// There are so many disks that the new one is not sorted among them at once.
 TEST(SimulationChanges, AFastDiskThatComesToManySplitsAllStepsThatFollow) {
   const Scene scene = parse_scene(
       "[box]\nwidth = 100.0\nheight = 100.0\n[[disks]]\ncount = 400\npositions = \"square\"\nregion = [0, 0, 100, 60]\n"
@@ -269,7 +272,7 @@ TEST(SimulationChanges, AFastDiskThatComesToManySplitsAllStepsThatFollow) {
   }
 }
 
-// The paths of the last window end with a change.
+// A change ends the paths of the last window.
 TEST(SimulationChanges, HasNoDisksOfEarlierAfterAChange) {
   Simulation s(gas("exact"), choice());
   s.step(3);
@@ -312,15 +315,15 @@ TEST(SimulationChanges, AddsNoDiskOnAFixedOne) {
                                   "fixed.toml", "");
   Simulation s(scene, choice());
   EXPECT_FALSE(s.add({0.5, 6.5, 0.0, 0.0, 0.6, 1.0}));
-  EXPECT_FALSE(s.add({19.5, 5.0, 0.0, 0.0, 0.5, 1.0})) << "across the side";
-  EXPECT_FALSE(s.add({15.5, 2.5, 0.0, 0.0, 0.8, 1.0})) << "on a wall";
+  EXPECT_FALSE(s.add({19.5, 5.0, 0.0, 0.0, 0.5, 1.0})) << "it would reach over the side";
+  EXPECT_FALSE(s.add({15.5, 2.5, 0.0, 0.0, 0.8, 1.0})) << "it would overlap a wall";
   EXPECT_TRUE(s.add({0.5, 7.0, 0.0, -1.0, 0.6, 1.0}));
   EXPECT_TRUE(s.add({15.5, 2.5, 0.0, 0.0, 0.6, 1.0}));
   s.run_until(5.0);
   EXPECT_GT(s.state().counters.collisions + s.state().counters.wall_collisions, 0U);
 }
 
-// A side that moves has come in as far as the time is.
+// A moving side is where it is at the present time.
 TEST(SimulationChanges, AddsNoDiskBeyondASideThatHasMovedIn) {
   for (const std::string method : methods) {
     SCOPED_TRACE(method);
@@ -347,19 +350,19 @@ TEST(SimulationChanges, RefusesDisksThatCannotBe) {
   EXPECT_THROW(s.add({5.0, 5.0, nan, 0.0, 0.1, 1.0}), InputError);
   EXPECT_THROW(s.add({5.0, 5.0, 0.0, 0.0, 0.0, 1.0}), InputError);
   EXPECT_THROW(s.add({5.0, 5.0, 0.0, 0.0, 0.1, -1.0}), InputError);
-  EXPECT_THROW(s.add({5.0, 0.05, 0.0, 0.0, 0.1, 1.0}), InputError);  // through the floor
+  EXPECT_THROW(s.add({5.0, 0.05, 0.0, 0.0, 0.1, 1.0}), InputError);  // it would reach through the floor
   EXPECT_THROW(s.add({-0.1, 5.0, 0.0, 0.0, 0.1, 1.0}), InputError);
   EXPECT_THROW(s.add({5.0, 5.0, 0.0, 0.0, 1000.0, 1.0}), InputError);
   const double width = s.scene().box.width;
-  EXPECT_THROW(s.add({width, 5.0, 0.0, 0.0, 0.1, 1.0}), InputError);  // is 0
+  EXPECT_THROW(s.add({width, 5.0, 0.0, 0.0, 0.1, 1.0}), InputError);  // this is the same as x = 0
   EXPECT_THROW(s.add({0.5 * width, 0.5 * width, 0.0, 0.0, 0.3 * width, 1.0}), InputError) << "would meet its image";
   EXPECT_THROW(s.set_velocity(3, {nan, 0.0}), InputError);
   EXPECT_THROW(s.run_until(nan), InputError);
   EXPECT_EQ(s.hash(), before);
 }
 
-// In a sheared box a disk may be half as large as in others: two of radius 0.237 in one of width 1 were brought
-// together by the images that come along behind the nearest ones, and no collision was seen.
+// In a sheared box disks may be only half as large as in others: two disks of radius 0.237 in a box of width 1 were
+// once brought together by images behind the nearest ones, and no collision was found.
 TEST(SimulationChanges, AddsNoDiskThatAShearedBoxIsTooSmallFor) {
   Simulation s(parse_scene("[box]\nwidth = 1.0\nheight = 3.0\nleft = \"periodic\"\nright = \"periodic\"\n"
                            "bottom = \"periodic\"\ntop = \"periodic\"\nshear_rate = -0.32\n[[disks]]\ncount = 0\n"
@@ -371,7 +374,7 @@ TEST(SimulationChanges, AddsNoDiskThatAShearedBoxIsTooSmallFor) {
   EXPECT_TRUE(s.add({0.99, 2.48, 2.03, 1.26, 0.125, 1.0}));
 }
 
-// 3.3 - 1.1 is less than 2.2 in binary numbers. A scene may have such a disk, and so may a program.
+// In binary numbers 3.3 - 1.1 is less than 2.2. A scene may have such a disk, and so may a program.
 TEST(SimulationChanges, AddsADiskThatTouchesASideInDecimals) {
   for (const std::string method : methods) {
     SCOPED_TRACE(method);
@@ -387,8 +390,7 @@ TEST(SimulationChanges, AddsADiskThatTouchesASideInDecimals) {
   }
 }
 
-// What a state remembers of a disk goes with it: its spin, and the loads that it bore as the first of two or the
-// second.
+// With a removed disk goes all that the state keeps of it: its spin, and its loads as first or second disk.
 TEST(SimulationChanges, ADiskThatGoesTakesItsSpinAndItsLoadsAlong) {
   State state;
   state.disks.inertia = 0.5;
@@ -399,7 +401,7 @@ TEST(SimulationChanges, ADiskThatGoesTakesItsSpinAndItsLoadsAlong) {
   EXPECT_EQ(state.disks.id, (std::vector<DiskId>{0, 2}));
   EXPECT_EQ(state.disks.spin, (std::vector<double>{10.0, 12.0}));
   ASSERT_EQ(state.loads.size(), 1U);
-  EXPECT_EQ(state.loads[0].force, 6.0) << "of 0 and 2";
+  EXPECT_EQ(state.loads[0].force, 6.0) << "the load of disks 0 and 2";
 }
 
 }  // namespace

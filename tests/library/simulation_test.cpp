@@ -1,4 +1,4 @@
-// carom::Simulation: the bits of a run however it is stepped, saved and looked at.
+// carom::Simulation: the bits are those of a run, however it is stepped, saved and looked at.
 #include "run/simulation/simulation.hpp"
 
 #include <gmock/gmock.h>
@@ -45,7 +45,7 @@ TEST(Simulation, HasTheBitsOfARun) {
   }
 }
 
-// Two runs of a scene find the same folder free, each before its start is computed.
+// Two runs of a scene find the same folder free before their starts are computed.
 TEST(Run, TakesTheNextFolderWhereAnotherRunHasTakenItsOwn) {
   const test::TestFolder folder("next_folder");
   const std::filesystem::path usual = folder.path() / "two_disks";
@@ -76,8 +76,8 @@ TEST(Simulation, WritesNoFilesAndStopsWhereAsked) {
   EXPECT_EQ(simulation.time(), 3.0);
 }
 
-// Looks at the disks before each step, and before some takes one away or goes back, to a state of this scene or
-// another. False after so many steps that a run which does not get on would be told.
+// Looks at the disks before each step; before some steps it removes a disk, or loads a state of this scene or another.
+// Returns false after so many steps that a run making no progress would be noticed.
 bool look_and_change(Simulation& s, Count k, const std::string& before, const std::string& elsewhere) {
   std::vector<DiskId> ids;
   for (const std::size_t i : s.order()) ids.push_back(s.state().disks.id[i]);
@@ -118,8 +118,8 @@ TEST(Simulation, GivesDisksInOrderOfId) {
   EXPECT_THROW(simulation.disks_at(simulation.time() + 1.0, earlier), InputError);
 }
 
-// With time stepping, and after a state was taken up, the last step has but its end; what was before is refused all the
-// same.
+// In time stepping, and after loading a state, only the end of the last step is available; earlier times are still
+// refused.
 TEST(Simulation, RefusesTimesBeforeTheLastStep) {
   for (const char* method : methods) {
     Simulation s(gas(method), choice());
@@ -140,7 +140,7 @@ TEST(Simulation, RefusesTimesBeforeTheLastStep) {
   }
 }
 
-// Paths are kept of the last window alone: its start is the earliest time that disks can be had of.
+// Only the paths of the last window are kept: its start is the earliest time for which disks are available.
 TEST(Simulation, HasNoDisksOfBeforeTheLastStep) {
   for (const char* engine : {"parallel", "reference"}) {
     Simulation s(gas("exact"), choice(engine));
@@ -174,7 +174,7 @@ TEST(Simulation, ASummaryMovesNoDisk) {
   }
 }
 
-// A disk that runs full, here a limit to what this process may write, costs no state that was saved before.
+// If the disk becomes full, here by a limit on the size of files, an earlier saved state is not lost.
 TEST(Simulation, ASaveThatFailsLeavesTheOneBefore) {
   const test::TestFolder folder("failing_save");
   const std::string file = (folder.path() / "saved").string();
@@ -198,7 +198,7 @@ TEST(Simulation, ASaveThatFailsLeavesTheOneBefore) {
   EXPECT_EQ(Simulation::resume(file, choice()).hash(), simulation.hash());
 }
 
-// What was warned of before a state was taken up is told all the same, though other steps come first.
+// Warnings raised before a state was loaded are still reported, though after those of later steps.
 TEST(Simulation, WarningsOutliveALoad) {
   Scene hasty = gas("pairwise");
   hasty.run.dt = 0.2;
@@ -214,10 +214,10 @@ TEST(Simulation, WarningsOutliveALoad) {
   };
   const std::vector<std::string> expected = warned(false);
   ASSERT_GE(expected.size(), 2U);
-  EXPECT_EQ(warned(true), expected) << "and the first, which comes again with the first step, once";
+  EXPECT_EQ(warned(true), expected) << "and the first warning, which comes again in the first step, once";
 }
 
-// As root a state saved to /dev/null would take its place.
+// For root a state saved to /dev/null would replace it.
 TEST(Simulation, ASaveReplacesNoPipe) {
   const test::TestFolder folder("simulation_pipe");
   const std::filesystem::path pipe = folder.path() / "pipe";
@@ -255,7 +255,7 @@ TEST(Simulation, SavedAndLoadedGoesOnBitForBit) {
   }
 }
 
-// The mean pressure is that in the room halfway through the run: here of one disk that only the wall opposite meets.
+// The mean pressure refers to the area halfway through the run: here of one disk that meets only the opposite wall.
 TEST(Simulation, SummaryHasThePressureInTheRoomThatASideLeaves) {
   Simulation simulation(
       parse_scene(
