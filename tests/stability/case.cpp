@@ -15,7 +15,7 @@ namespace {
   throw InputError(fmt::format("{}:{}: {}", path, at.source().begin.line, what));
 }
 
-// Every key but these is a mistake: a bound that is not read would never fail.
+// All other keys are errors: a bound that is not read would never fail.
 void check_keys(const std::string& path, const toml::table& table, std::initializer_list<std::string_view> known) {
   for (const auto& [key, value] : table) {
     bool found = false;
@@ -24,7 +24,7 @@ void check_keys(const std::string& path, const toml::table& table, std::initiali
   }
 }
 
-// "set" = { "run.dt" = "0.1" }: as on the command line.
+// "set" = { "run.dt" = "0.1" }: the same as on the command line.
 std::vector<Override> read_changes(const std::string& path, const toml::table* table) {
   std::vector<Override> changes;
   if (table == nullptr) return changes;

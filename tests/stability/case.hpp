@@ -1,4 +1,4 @@
-// The cases of the stability suite: which scene, with which changes, and what must come out. Data only, read from
+// The cases of the stability suite: the scene, its changes, and the results required. They are data, read from
 // scenes/stability/cases.toml.
 #pragma once
 
@@ -11,13 +11,13 @@
 
 namespace carom::stability {
 
-// One figure of a run and what it must be: |measured - expected| <= bound.
+// A figure of a run and its required value: |measured - expected| <= bound.
 struct Check {
   std::string what;                   // a name listed in measure.hpp
-  double expected = 0.0;              // ignored where like_exact
-  bool like_exact = false;            // expected is what the exact method measures
-  bool relative = false;              // the bound is a share of |expected|
-  double bound = 0.0;                 // for methods that have none of their own
+  double expected = 0.0;              // ignored if like_exact
+  bool like_exact = false;            // expected is the value measured with the exact method
+  bool relative = false;              // the bound is relative to |expected|
+  double bound = 0.0;                 // for methods without a bound of their own
   std::map<std::string, double> own;  // bounds by method: time stepping has an error of its order, exact has none
   double bound_of(const std::string& method) const;
 };
@@ -25,16 +25,16 @@ struct Check {
 enum class Takes { less, seconds, minutes };
 
 struct Case {
-  std::string name;   // of the test; letters, digits, _
-  std::string title;  // of the row
+  std::string name;   // name of the test; letters, digits, _
+  std::string title;  // title of the row
   std::string scene;  // file in the folder of the cases, without .toml
   std::vector<Override> changes;
-  std::map<std::string, std::vector<Override>> own_changes;  // by method, after the others
+  std::map<std::string, std::vector<Override>> own_changes;  // by method, applied after the others
   std::vector<Check> checks;
-  std::vector<std::string> right;  // methods that must be right; the others may be wrong if they say so
-  Count most_steps = 0;            // a run that needs more is ended; 0: no bound
-  Takes takes = Takes::less;       // of its test; those that take minutes are run by the parallel engine alone
-  bool every_step = false;         // what is worst is looked for after every step, not at some moments
+  std::vector<std::string> right;  // methods that must be right; others may be wrong if they warn
+  Count most_steps = 0;            // a run that needs more steps is ended; 0: no bound
+  Takes takes = Takes::less;       // time of its test; tests that take minutes are run only with the parallel engine
+  bool every_step = false;         // the worst figures are taken after every step, not only at some of them
 };
 
 // Throws InputError.

@@ -19,12 +19,12 @@ namespace carom::stability {
 
 namespace {
 
-// N disks on a ring, all on one line, gaps of a diameter, velocities along it uniform in [-1, 1].
+// N disks on a line in a ring, with gaps of a diameter and velocities along the line, uniform in [-1, 1].
 constexpr int columns = 18;  // N = 3, 4, 6, 8, 12, 16 ... 1024
 constexpr int rows = 15;     // 1 - e = 1, 10^(-1/6), ... 10^(-14/6)
 constexpr double rows_a_decade = 6.0;
 constexpr int seeds = 8;
-constexpr double t_end = 200.0;  // large rings near the boundary would collapse later still
+constexpr double t_end = 200.0;  // large rings near the boundary would collapse even later
 
 int disks_of(int column) {
   return column == 0 ? 3 : column % 2 == 1 ? 4 << (column / 2) : 6 << (column / 2 - 1);
@@ -37,11 +37,11 @@ double restitution_of(int row) {
 struct Cell {
   int column = 0, row = 0;
   int collapsed = 0;        // of all seeds
-  double collisions = 0.0;  // a disk, mean over the runs that collapse, before they do
-  double first = t_end;     // earliest collapse
+  double collisions = 0.0;  // for each disk, before the collapse; mean over the runs that collapse
+  double first = t_end;     // the earliest collapse
 };
 
-// The seed's velocities in TOML, by a linear congruential generator: every machine gets the same map.
+// The velocities for a seed in TOML, by a linear congruential generator, so that every machine gets the same map.
 std::string ring(int n, double e, int seed) {
   std::uint64_t state = static_cast<std::uint64_t>(seed) + 1;
   std::string positions;
@@ -85,7 +85,7 @@ std::vector<Cell> measure_cells() {
   return cells;
 }
 
-// ln(4 / (1 - e)) / (1 - e) (McNamara and Young 1996), in cells.
+// ln(4 / (1 - e)) / (1 - e) (McNamara and Young 1996), in units of cells.
 double column_of_theory(double row) {
   const double q = std::pow(10.0, -row / rows_a_decade);
   const double n = std::log(4.0 / q) / q;

@@ -19,13 +19,13 @@ namespace carom::stability {
 
 namespace {
 
-// Time in units of a diameter over the thermal speed.
+// The unit of time is a diameter over the thermal speed.
 constexpr std::array<double, 10> packing{0.05, 0.10, 0.20, 0.30, 0.40, 0.50, 0.60, 0.70, 0.80, 0.88};
 constexpr double first_dt = 1e-3;
 constexpr double dt_factor = 2.0;
 constexpr int dt_count = 10;
-constexpr double aimed_collisions = 4e4;  // of a run: 0.5 % of noise
-constexpr double most_steps = 2e5;        // more are left out: the error there is noise
+constexpr double aimed_collisions = 4e4;  // in a run: 0.5 % of noise
+constexpr double most_steps = 2e5;        // longer runs are left out: their error is noise
 
 struct Cell {
   std::string method;
@@ -51,7 +51,7 @@ struct Run {
   bool warned = false, ended = true;
 };
 
-// Disk collisions a disk and unit of time over the whole run.
+// Collisions of a disk per unit of time over the whole run.
 Run run(const Scene& scene) {
   const auto engine = make_parallel_engine(scene, initial_state(scene), {1});
   engine->forget_paths();
@@ -72,7 +72,8 @@ Run run(const Scene& scene) {
   return result;
 }
 
-// 4 (Z - 1) / sqrt(pi) with Henderson's Z for the fluid and free volumes for the crystal: how long a run should be.
+// 4 (Z - 1) / sqrt(pi) with Henderson's Z for the fluid and free volumes for the crystal, to choose the length of a
+// run.
 double rough_rate(double phi) {
   const double fluid = (1.0 + phi * phi / 8.0) / ((1.0 - phi) * (1.0 - phi)) - 1.0;
   const double crystal = 2.0 / (0.9069 / phi - 1.0);
@@ -109,7 +110,7 @@ std::string data_of(const std::vector<Cell>& cells) {
     }
     text += "\n\n";
   }
-  // Where a disk collides 0.1 and 1 times in dt.
+  // Lines where a disk collides 0.1 and 1 times in dt.
   for (const double share : {0.1, 1.0}) {
     for (const Cell& c : cells) {
       if (c.method == "pairwise" && c.row + 1 == dt_count) {

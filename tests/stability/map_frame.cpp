@@ -18,8 +18,8 @@ std::string tics(const char* axis, const Axis& a) {
 
 }  // namespace
 
-// One hue from pale to dark, with a turn to violet so that the dark end stays apart: read by all kinds of eyes and in
-// grey.
+// One hue from pale to dark, shifted to violet so that the dark end can be distinguished; readable for the colour-blind
+// and in grey.
 std::string map_header(int width, int height) {
   return fmt::format(
       "set terminal svg size {},{} font 'sans-serif,14' linewidth 1 noenhanced background 'white'\n"

@@ -1,4 +1,4 @@
-// What both maps share: the look of a map of cells as a gnuplot script.
+// Shared by both maps: the look of a map of cells as a gnuplot script.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@ namespace carom::stability {
 
 struct Axis {
   std::string title;
-  std::vector<std::string> labels;  // of the cells, one each; empty: none
+  std::vector<std::string> labels;  // one for each cell; empty: no label
 };
 
-// Terminal, output and the settings that panels share. Cells lie at 0, 1, 2, ... along both axes.
+// Terminal, output and the settings shared by the panels. Cells are at 0, 1, 2, ... along both axes.
 std::string map_header(int width, int height);
 
-// Axes of a panel with a cell for each label.
+// The axes of a panel with one cell for each label.
 std::string map_axes(const std::string& title, const Axis& x, const Axis& y);
 
 }  // namespace carom::stability

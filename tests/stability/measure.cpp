@@ -24,7 +24,7 @@ double ratio(double end, double start) {
   return start != 0.0 ? end / start : end;
 }
 
-// Pairs of disks whose order from left to right is not that of the start.
+// The number of pairs of disks whose order from left to right has changed since the start.
 double passed(const Disks& start, const Disks& end) {
   const std::vector<std::size_t> a = by_id(start);
   const std::vector<std::size_t> b = by_id(end);
@@ -89,10 +89,11 @@ void Worst::look(const Scene& scene, const State& start, const State& now) {
   Domain box = box_at(scene.box, now.time);
   const auto obstacles = place_obstacles(now.obstacles, box, motions_of(scene));
   wall_overlap = std::max(wall_overlap, carom::wall_overlap(now.disks, box));
-  double work = now.counters.wall_work;  // and by sides that move
+  double work = now.counters.wall_work;  // and moving sides
   for (const double of_side : now.counters.side_energy) work += of_side;
   const double kept = ratio(after.total() - work, before.total()) - (before.total() != 0.0 ? 1.0 : 0.0);
-  const double drift = work == 0.0 ? kept : kept * before.total() / after.total();  // of what it has grown to
+  const double drift =
+      work == 0.0 ? kept : kept * before.total() / after.total();  // relative to the energy to which it has grown
   energy_drift = std::max(energy_drift, std::abs(drift));
   energy_gain = std::max(energy_gain, drift);
   momentum = std::max(momentum, momentum_drift(momentum_of(start.disks), momentum_of(now.disks)));

@@ -1,4 +1,4 @@
-// What the suite measures on a run: figures by name, from the start, the end and what was seen on the way.
+// The figures that the suite measures in a run, by name, from the start, the end and what was seen in between.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace carom::stability {
 
-// The worst of a run, measured after some of its steps and at its end.
+// The worst figures of a run, taken after some of its steps and at its end.
 struct Worst {
   double overlap = 0.0;       // of two disks, over the sum of radii
   double wall_overlap = 0.0;  // over the radius
@@ -21,7 +21,7 @@ struct Worst {
   void look(const Scene& scene, const State& start, const State& now);
 };
 
-// A finished run, or one that was stopped.
+// A run that has ended or was stopped.
 struct Measured {
   const Scene& scene;
   const State& start;

@@ -1,5 +1,5 @@
-// Every case of scenes/stability with every method: nothing is wrong in silence, what the case calls right is right,
-// and both engines agree on bits and warnings.
+// Every case of scenes/stability with every method: no result is wrong without a warning, the methods that the case
+// calls right are right, and both engines agree in bits and warnings.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace carom::stability {
 
-// How a case shows up in the name of its test.
+// Prints a case in the name of its test.
 static void PrintTo(const Case& c, std::ostream* out) {
   *out << c.name;
 }

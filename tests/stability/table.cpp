@@ -11,8 +11,8 @@ namespace carom::stability {
 
 namespace {
 
-// "x0 47.98, is 48" or, where it must be 0, the figure alone. Differences from what must be are given where they are
-// too small to show.
+// "x0 47.98, is 48", or only the figure if it must be 0. Differences from the required value are given if they are too
+// small to show.
 std::string figure_text(const CheckResult& r) {
   if (r.expected == 0.0) return fmt::format("{} {:.2g}", r.what, r.measured);
   const double error = r.measured - r.expected;

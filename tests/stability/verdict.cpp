@@ -24,13 +24,13 @@ namespace {
 
 constexpr std::array<const char*, 3> methods{"rollback", "pairwise", "exact"};
 
-// Cost of an event of the exact method, in disk-steps (docs/benchmarks.md: about 1 us against 30 ns).
+// The cost of an event of the exact method in disk-steps (docs/benchmarks.md: about 1 us compared with 30 ns).
 constexpr double event_work = 30.0;
 
-// How often a run is measured, at most: the search for overlaps costs as much as some steps.
+// The largest number of measurements in a run: the search for overlaps costs as much as some steps.
 constexpr Count looks = 200;
 
-constexpr Count shared_from = 2000;  // disks from which two threads pay
+constexpr Count shared_from = 2000;  // from this number of disks on two threads pay
 
 Scene scene_for(const Case& c, const std::string& folder, const std::string& method) {
   std::vector<Override> changes = c.changes;
@@ -56,7 +56,7 @@ void take(Engine& engine, MethodResult& result) {
   for (std::string& warning : engine.take_warnings()) result.warnings.push_back(std::move(warning));
 }
 
-// Steps to the end, to the case's bound on steps, or to where the physics stops it.
+// Steps to the end, to the case's bound on steps, or until the physics stops the run.
 void step_through(const Case& c, Engine& engine, Run& run) {
   engine.forget_paths();
   const double every = run.scene->run.t_end / static_cast<double>(looks);
@@ -105,7 +105,7 @@ Run run_method(const Case& c, const std::string& folder, const std::string& meth
   return run;
 }
 
-// The checks of the case, and first of all that the run came to its end.
+// The checks of the case; the first one is that the run came to its end.
 void check(const Case& c, const Run& exact, Run& run) {
   const Measured measured{*run.scene, run.start, run.end, run.worst};
   run.result.checks.push_back({"time", run.end.time, run.scene->run.t_end, 0.0});
@@ -151,7 +151,7 @@ double CheckResult::over_bound() const {
 }
 
 const CheckResult& MethodResult::telling() const {
-  // Of the checks that hold the first of the case's own counts, not the time.
+  // Of the checks that hold, the first of the case's own is shown, not the time.
   const auto less = [](const CheckResult& a, const CheckResult& b) { return a.over_bound() < b.over_bound(); };
   const auto worst = std::max_element(checks.begin(), checks.end(), less);
   return worst->holds() && worst == checks.begin() && checks.size() > 1 ? checks[1] : *worst;

@@ -1,4 +1,4 @@
-// Running a case with one method, and the verdict, decided by the case's data.
+// Running a case with one method, and the verdict, which follows from the case's data.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ struct CheckResult {
   std::string what;
   double measured = 0.0, expected = 0.0, bound = 0.0;
   bool holds() const;
-  double over_bound() const;  // error over bound; infinite where the bound is 0 and broken
+  double over_bound() const;  // error over bound; infinite if the bound is 0 and exceeded
 };
 
 struct MethodResult {
@@ -24,19 +24,19 @@ struct MethodResult {
   Verdict verdict = Verdict::silent;
   std::vector<CheckResult> checks;
   std::vector<std::string> warnings;
-  std::string stopped;                 // what ended the run early, empty if nothing
-  double work = 0.0;                   // disk-steps; an event of the exact method counts as many as it costs
-  double frames = 0.0;                 // rollback: a dt of time
+  std::string stopped;                 // the reason why the run ended early; empty if it did not
+  double work = 0.0;                   // disk-steps; an event of the exact method counts by its cost
+  double frames = 0.0;                 // rollback: frames for each dt of time
   std::string hash;                    // of the last state
-  const CheckResult& telling() const;  // the check that is worst against its bound
+  const CheckResult& telling() const;  // the check that is worst relative to its bound
   bool right() const;
 };
 
-// A run that is right but costs more than so many times the cheapest right method is slow.
+// A run is slow if it is right, but costs more than this many times the cheapest right method.
 inline constexpr double slow_factor = 20.0;
 // Runs of fewer disk-steps than this, a tenth of a second, are never called slow.
 inline constexpr double little_work = 3e6;
-// Nor is rollback called slow for more than two frames a dt where there is next to nothing to do.
+// Nor is rollback called slow for up to two frames in a dt if there is hardly anything to do.
 inline constexpr double most_frames = 2.0;
 inline constexpr double least_work = 1e5;
 
@@ -47,7 +47,7 @@ struct CaseResult {
 
 enum class Which : std::uint8_t { parallel, reference };
 
-// Runs the case with every method; folder: where its scene is.
+// Runs the case with every method. folder: that of its scene.
 CaseResult run_case(const Case& c, const std::string& folder, Which which);
 
 }  // namespace carom::stability
