@@ -12,7 +12,7 @@ namespace carom::fuzz {
 
 namespace {
 
-// Distance of (x, y) from the images of the segment from 0 to (dx, dy), which may be a point.
+// The distance of (x, y) from the images of the segment from 0 to (dx, dy), which may be a point.
 double distance(double x, double y, double dx, double dy, const Domain& box) {
   double least = HUGE_VAL;
   const int px = box.periodic_x() ? 2 : 0;
@@ -29,7 +29,7 @@ double distance(double x, double y, double dx, double dy, const Domain& box) {
   return least;
 }
 
-// Squared, of the nearest images of two places in the box.
+// The squared distance of the nearest images of two places in the box.
 double distance2(double dx, double dy, const Domain& box) {
   if (!box.shear.acts()) {
     if (box.periodic_x() && std::abs(dx) > 0.5 * box.width) dx = box.width - std::abs(dx);

@@ -1,5 +1,5 @@
-// The deepest overlap, all pairs and all images, with no grid: what engines and their measures share is not
-// asked.
+// The deepest overlap over all pairs and all images, without a grid, so that it does not depend on code that engines
+// and their measures share.
 #pragma once
 
 #include <cmath>
@@ -13,11 +13,11 @@
 namespace carom::fuzz {
 
 struct Closest {
-  double gap = HUGE_VAL;  // over the smallest radius; below 0 where there is an overlap
+  double gap = HUGE_VAL;  // over the smallest radius; negative for an overlap
   std::string what;       // "disks 3 and 7 overlap"
 };
 
-// Sinks are looked at like walls: they have taken what touched them.
+// Sinks are treated like walls, as they have taken all disks that touched them.
 Closest closest_of(const Disks& disks, const std::vector<Obstacle>& obstacles, const Scene& scene, double time);
 
 }  // namespace carom::fuzz

@@ -1,4 +1,4 @@
-// What random scenes are looked at with finds overlaps: across sides, in a shear, with walls and what moves.
+// The checks of random scenes find overlaps: across sides, in a shear, with walls, and with moving obstacles.
 #include "tests/fuzz_scenes/closest.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace carom::fuzz {
 namespace {
 
-// A box of 10 x 8 with two disks of radius 1, then moved to the places.
+// For a box of 10 x 8 with two disks of radius 1, which are then moved to these places.
 Closest closest_at(const std::string& keys, Vec2 a, Vec2 b, double time = 0.0) {
   const Scene scene = parse_scene("[box]\nwidth = 10\nheight = 8\n" + keys +
                                       "\n[[disks]]\ncount = 2\npositions = [[3, 3], [3, 5.1]]\nradius = 1\nmass = 1\n"
@@ -29,7 +29,7 @@ TEST(Closest, SeesPairsAcrossSides) {
   EXPECT_NEAR(closest_at(periodic, {0.5, 3}, {9.0, 3}).gap, -0.5, 1e-12);
   EXPECT_NEAR(closest_at(periodic, {0.5, 0.5}, {9.5, 7.5}).gap, std::sqrt(2.0) - 2.0, 1e-12);
   EXPECT_GE(closest_at(periodic, {3, 3}, {3, 5.1}).gap, 0.0);
-  // At time 2 the images above have gone 2 * 0.1 * 8.
+  // At time 2 the upper images have moved by 2 * 0.1 * 8.
   EXPECT_NEAR(closest_at(periodic + "shear_rate = 0.1\n", {5.0, 7.5}, {3.4, 0.5}, 2.0).gap, -1.0, 1e-12);
 }
 
@@ -39,7 +39,8 @@ TEST(Closest, SeesSidesAndObstacles) {
   EXPECT_NEAR(closest_at("left = \"sink\"", {0.75, 3}, {5, 5}).gap, -0.25, 1e-12);
   const std::string wall = periodic + "[[walls]]\nfrom = [7, 0]\nto = [7, 6]\n";
   EXPECT_NEAR(closest_at(wall, {6.5, 4}, {3, 3}).gap, -0.5, 1e-12);
-  EXPECT_NEAR(closest_at(wall, {6.5, 7.75}, {3, 3}).gap, std::sqrt(0.3125) - 1.0, 1e-12) << "its end, across the top";
+  EXPECT_NEAR(closest_at(wall, {6.5, 7.75}, {3, 3}).gap, std::sqrt(0.3125) - 1.0, 1e-12)
+      << "the end of the wall, across the top";
   EXPECT_NEAR(closest_at(wall + "motion = { velocity = [0.5, 0] }\n", {1.5, 3}, {5, 3}, 8.0).gap, -0.5, 1e-12);
 }
 
@@ -58,7 +59,7 @@ TEST(Sanity, TellsOfOverlapsWithinAWindow) {
   EXPECT_NE(sanity.fault().find("at t = 2: disks 0 and 1 overlap"), std::string::npos) << sanity.fault();
 }
 
-// A run whose sides gave momentum that no count has, or energy.
+// The sides of a run gave momentum or energy that is not in its counters.
 TEST(Sanity, TellsOfMomentumAndEnergyFromNowhere) {
   const Scene scene = parse_scene(
       "[box]\nwidth = 10\nheight = 8\n[[disks]]\ncount = 2\npositions = [[3, 3], [3, 5.1]]\n"

@@ -1,5 +1,5 @@
-// Draws for scenery: the n-th draw of a scene is a function of (seed, scene, attempt, n), from the engine's own
-// counter-based generator, so that a scene is the same on every machine.
+// Draws for random scenes: the n-th draw of a scene is a function of (seed, scene, attempt, n), computed by the
+// engine's own counter-based generator, so that a scene is the same on every machine.
 #pragma once
 
 #include <fmt/format.h>
@@ -21,9 +21,9 @@ class Dice {
   double unit() { return uniforms(seed_, Stream::position, scene_, drawn_++, attempt_).a; }
   double in(double low, double high) { return low + (high - low) * unit(); }
   bool chance(double share) { return unit() < share; }
-  // One of 0 .. n - 1.
+  // A random number of 0 .. n - 1.
   std::size_t below(std::size_t n) { return static_cast<std::size_t>(unit() * static_cast<double>(n)); }
-  // From 10^low to 10^high, every decade equally likely.
+  // From 10^low to 10^high, with equal probability for every decade.
   double decades(int low, int high) {
     double value = in(1.0, 10.0);
     for (int k = low + static_cast<int>(below(static_cast<std::size_t>(high - low))); k != 0; k -= k > 0 ? 1 : -1) {
@@ -42,7 +42,7 @@ class Dice {
   std::uint64_t drawn_ = 0;
 };
 
-// The double that a person would have written: four digits.
+// Rounded to four digits, as a person would write it.
 inline double rounded(double x) {
   return std::strtod(fmt::format("{:.4g}", x).c_str(), nullptr);
 }

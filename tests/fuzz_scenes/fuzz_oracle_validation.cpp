@@ -1,4 +1,4 @@
-// Two thousand random small scenes: the method `exact` against an all-pairs simulation in long double.
+// Two thousand small random scenes: the method `exact` compared with a simulation that tests all pairs in long double.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -1,5 +1,5 @@
-// Two hundred random scenes of all features: every engine, at every number of threads, with frames, interrupted and
-// resumed, has the reference's bits, and the states are sane (sanity.hpp). carom_fuzz_scenes tries more of them.
+// Two hundred random scenes with all features: every engine has the bits of the reference, at every number of threads,
+// with frames, interrupted and resumed, and the states are plausible (sanity.hpp). carom_fuzz_scenes tries more scenes.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -1,6 +1,6 @@
-// Random scenes of the kinds in which collisions were once lost (wide_scene.hpp): engines against the reference, and
-// the method `exact` against an all-pairs simulation in long double. A few of them: carom_fuzz_scenes --wide tries
-// more.
+// Random scenes of the kinds in which collisions were once lost (wide_scene.hpp): engines compared with the reference,
+// and the method `exact` with a simulation that tests all pairs in long double. There are only a few here:
+// carom_fuzz_scenes --wide tries more.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -1,5 +1,5 @@
-// carom_fuzz_scenes N [SEED]: N random scenes, each in a process of its own, so that one that crashes or never ends is
-// a failing scene like the others. docs/faults.md says how to use it.
+// carom_fuzz_scenes N [SEED]: N random scenes, each in a process of its own, so that a scene that crashes or never ends
+// counts as a failure like others. docs/faults.md describes its use.
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -50,7 +50,7 @@ struct Result {
   bool refused = false;
 };
 
-// In the child: reports what it is about to do, does it, reports the result.
+// In the child process: reports what it is about to do, does it, and reports the result.
 void try_number(const Options& options, std::uint32_t number, std::FILE* out) {
   for (std::uint32_t attempt = 0; attempt < most_attempts; ++attempt) {
     fmt::print(out, "attempt {}\n", attempt);
@@ -119,7 +119,7 @@ Result in_a_process(const Options& options, std::uint32_t number) {
   return read_result(said, status);
 }
 
-// The scene, with what went wrong above it.
+// Saves the scene, with its faults in a comment at the top. Returns the file's name.
 std::string save(const Options& options, std::uint32_t number, const Result& result) {
   std::filesystem::create_directories(options.folder);
   const std::string path = fmt::format("{}/{}{}_{}_{}.toml", options.folder, options.wide ? "wide_" : "",

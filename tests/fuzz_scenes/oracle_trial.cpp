@@ -1,6 +1,7 @@
-// When the comparison stops: beside the oracle run two others, whose disks are slightly displaced. Runs can be compared
-// as long as these stay together, and what lies between them bounds what rounding may do. Two, since one may happen to
-// be displaced along a direction that grows little: a side that vibrates fast makes others a thousand times as large.
+// How long runs can be compared: beside the oracle two more run whose disks are slightly displaced. Runs can be
+// compared as long as these stay together, and the distance between them bounds the effect of rounding. There are two,
+// since one displacement may by chance be along a direction that hardly grows: a fast vibrating side makes others a
+// thousand times as large.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,13 +26,13 @@ namespace carom::fuzz {
 
 namespace {
 
-// All in the smallest radius, and for velocities the largest speed.
-constexpr double displaced = 1e-10;  // the other oracles' disks, at the start and after each look
-constexpr double horizon = 1e-4;     // it is lost beyond this
-constexpr double rounding = 1e-7;    // what may always lie between
-constexpr double unit = 3e-14;       // rounding, of the ways gone and the box's length
-constexpr double vanishing = 1e-9;   // time between two events, or of a window, over t_end
-constexpr double no_gap = 1e-14;     // gap that a rebound opens, over the box's length
+// All lengths are in units of the smallest radius, and velocities in units of the largest speed.
+constexpr double displaced = 1e-10;  // displacement of the other oracles' disks, at the start and after each comparison
+constexpr double horizon = 1e-4;     // beyond this distance runs cannot be compared
+constexpr double rounding = 1e-7;    // a difference that is always allowed
+constexpr double unit = 3e-14;       // rounding, relative to the ways of disks and the box's length
+constexpr double vanishing = 1e-9;   // time between two events, or of a window, relative to t_end
+constexpr double no_gap = 1e-14;     // a gap opened by a rebound, relative to the box's length
 constexpr int looks = 24;
 constexpr std::size_t most_events = 4000;
 
@@ -43,7 +44,7 @@ double period(double d, double length, bool periodic) {
   return periodic ? d - std::round(d / length) * length : d;
 }
 
-// Largest distance of two that should be one, in places and velocities.
+// The largest difference of two runs that should be equal, in positions and velocities.
 template <class A, class B>
 double distance(const A& a, const B& b, std::size_t disks, const Domain& box, const Scales& scales) {
   double largest = 0.0;
@@ -67,7 +68,8 @@ double fastest(const oracle::System& system, double speed) {
   return speed;
 }
 
-// Repeatedly, as rounding acts: collisions without rebound put disks on one line, which removes the displacement.
+// Disks are displaced repeatedly, like by rounding: collisions without rebound put disks on one line, which removes a
+// displacement.
 void displace(oracle::System& system, double radius, int look, std::uint32_t which) {
   Dice dice(1, static_cast<std::uint32_t>(look), which);
   for (oracle::Ball& b : system.balls) {
@@ -76,7 +78,7 @@ void displace(oracle::System& system, double radius, int look, std::uint32_t whi
   }
 }
 
-// The engine beside two oracles, look after look.
+// Compares the engine with the oracles again and again.
 class Comparison {
  public:
   Comparison(const Scene& scene, const State& start, Trial& trial)
@@ -89,7 +91,7 @@ class Comparison {
         engine_(make_parallel_engine(scene, start, {1 + static_cast<int>(disks_ % 3), disks_ % 2 == 0 ? 1U : 1024U})),
         elastic_(!disks_dissipate(scene) && !scene.box.walls_dissipate() && !inner_walls_dissipate(scene)) {}
 
-  // Beyond chaos: each window from the state that the one before it left.
+  // After chaos has made the runs differ: compares each window, starting from the state at the end of the one before.
   void run_windows() {
     constexpr std::size_t most_windows = 300;
     std::size_t compared = 0;
@@ -101,8 +103,8 @@ class Comparison {
       advance_engine(std::nextafter(before.time, HUGE_VAL));
       begin_at(before);
       displace_others(0);
-      // In windows of a few roundings of time, on the way to a collapse, an event is now and then at the time of a
-      // look.
+      // On the way to a collapse windows are only a few roundings of time long, and then an event may fall on the time
+      // of a comparison.
       const bool is_long = engine_->state().time - before.time > vanishing * scene_.run.t_end;
       if (ended_.empty() && is_long && follow_window(before.time)) ++compared;
       events +=
@@ -114,7 +116,7 @@ class Comparison {
   void run() {
     if (!elastic_) first_.no_gap = no_gap * std::max(scene_.box.width, scene_.box.height);
     displace_others(0);
-    int look = 1;  // at the start a contact may have happened or not
+    int look = 1;  // at the start itself a contact may or may not have happened
     for (; look <= looks && trial_.faults.empty(); ++look) {
       const double t = look < looks ? scene_.run.t_end * look / looks : scene_.run.t_end;
       if (!advance_oracles(t)) break;
@@ -130,7 +132,7 @@ class Comparison {
   }
 
  private:
-  // To the window's end, or as far into it as chaos lets. False: not to the end.
+  // Compares up to the window's end, or as far as chaos allows. Returns whether it came to the end.
   bool follow_window(double begin) {
     constexpr int parts = 8;
     const double end = engine_->state().time;
@@ -155,7 +157,8 @@ class Comparison {
     for (std::uint32_t k = 0; k < others_.size(); ++k) displace(others_[k], scales_.radius, look, k);
   }
 
-  // Where rebounds die away it is rounding that decides how many there are, and whether they are a collapse.
+  // Is the outcome independent of rounding? If rebounds die away, rounding decides their number, and whether they are a
+  // collapse.
   bool decided() const {
     const bool bounces =
         scene_.physics.restitution > 0.0 && *std::ranges::min_element(scene_.box.restitutions) > 0.0 &&
@@ -166,7 +169,8 @@ class Comparison {
                         first_.shortest > vanishing * static_cast<oracle::Real>(scene_.run.t_end));
   }
 
-  // False where nothing can be said of what comes: chaos, or so many events in little time that they may be a collapse.
+  // Returns false if what follows cannot be compared: because of chaos, or of so many events in a short time that they
+  // may be a collapse.
   bool advance_oracles(double t) {
     if (!oracle::run(first_, t, most_events)) return false;
     scales_.speed = std::max(fastest(first_, scales_.speed), 1e-300);
@@ -178,13 +182,13 @@ class Comparison {
       apart_ = std::max(apart_, apart);
       if (first_.collisions != other.collisions || first_.wall_collisions != other.wall_collisions) return false;
     }
-    // Rebounds that rounding decides leave disks with the speed of the first of them, or not.
+    // Disks whose rebounds rounding decides have the speed of the first of them, or not.
     const auto undecided = static_cast<double>(first_.undecided);
     apart_ += undecided * std::max(1.0 / scales_.speed, t / scales_.radius);
     return apart_ < horizon;
   }
 
-  // A window reaches further than t: where it fails, the error's line says when.
+  // A window may reach beyond t: if it fails, its time is in the error message.
   void advance_engine(double t) {
     try {
       while (ended_.empty() && engine_->state().time < t) engine_->step();
@@ -232,8 +236,8 @@ class Comparison {
   std::unique_ptr<Engine> engine_;
   bool elastic_;
   double apart_ = 0.0;
-  std::string ended_;      // why the engine stopped, empty if it did not
-  double ended_at_ = 0.0;  // the time that it gave
+  std::string ended_;      // the reason why the engine stopped; empty if it did not
+  double ended_at_ = 0.0;  // the time in that message
 };
 
 }  // namespace
@@ -242,7 +246,8 @@ Trial try_against_oracle(const std::string& text, const std::string& name) {
   Trial trial;
   try {
     const Scene scene = parse_scene(text, name, "");
-    const std::vector<std::string> by_rounding = wall_warnings(scene);  // which wall acts
+    const std::vector<std::string> by_rounding =
+        wall_warnings(scene);  // scenes in which rounding decides which wall acts
     if (!by_rounding.empty()) fail_input(name, by_rounding.front());
     Comparison comparison(scene, initial_state(scene), trial);
     comparison.run();

@@ -17,7 +17,7 @@ struct Sizes {
   std::string text;
   double smallest = 0.0, largest = 0.0;  // radius
   double lightest = 0.0, heaviest = 0.0;
-  double area = 0.0;  // of a disk, on average
+  double area = 0.0;  // mean area of a disk
 };
 
 struct Range {
@@ -27,14 +27,15 @@ struct Range {
   }
 };
 
-// One number, or any between two with a ratio of theirs.
+// A single number, or a range whose ends have one of these ratios.
 Range random_range(Dice& dice, double high, std::initializer_list<double> ratios) {
   const double top = rounded(high);
   const double ratio = dice.chance(0.5) ? 1.0 : dice.pick(ratios);
   return {ratio == 1.0 ? top : rounded(top / ratio), top};
 }
 
-// Radii of a distribution, all at most `largest`. Normal and lognormal sizes end at four deviations.
+// Radii from a distribution, all of them at most `largest`. Normal and lognormal sizes are cut off at four standard
+// deviations.
 Sizes random_distribution(Dice& dice, const Units& units, const Range& mass, double largest) {
   Sizes sizes{"", 0.0, largest, mass.low, mass.high, 0.0};
   const double middle = rounded(largest * dice.in(0.3, 0.5));
@@ -65,7 +66,7 @@ Sizes random_distribution(Dice& dice, const Units& units, const Range& mass, dou
 
 Sizes random_laws(Dice& dice, const Units& units, double largest) {
   const Range mass = random_range(dice, units.mass * dice.in(0.5, 2.0), {1.0001, 3.0, 40.0, 1e4, 1e8});
-  if (dice.chance(0.1)) {  // radius from mass
+  if (dice.chance(0.1)) {  // the radius follows from the mass
     const double density = rounded(mass.high / (pi * largest * largest) * 1.001);
     const double high = std::sqrt(mass.high / (pi * density));
     const double low = std::sqrt(mass.low / (pi * density));
@@ -79,7 +80,7 @@ Sizes random_laws(Dice& dice, const Units& units, double largest) {
   if (dice.chance(0.1)) return random_distribution(dice, units, mass, largest);
   const Range radius = random_range(dice, largest * dice.in(0.5, 0.999), {1.0001, 1.4, 5.0, 10.0});
   const double area = pi * (radius.low * radius.low + radius.low * radius.high + radius.high * radius.high) / 3.0;
-  if (dice.chance(0.25)) {  // mass from radius
+  if (dice.chance(0.25)) {  // the mass follows from the radius
     const double density = rounded(units.mass / (pi * radius.high * radius.high));
     return {fmt::format("radius = {}\nmass = {{ from_radius = {} }}\n", radius.text(), density),
             radius.low,
@@ -117,7 +118,7 @@ std::string numbers_text(const std::vector<double>& numbers) {
   return "[" + text + "]";
 }
 
-// A group without lists joins the crowd.
+// Adds a group without lists to the crowd.
 void add_group(Crowd& crowd, Dice& dice, const Units& units, std::size_t count, const char* positions, double largest) {
   const Sizes sizes = random_laws(dice, units, largest);
   const double mass = dice.chance(0.9) ? sizes.lightest : sizes.heaviest;
@@ -136,7 +137,7 @@ void add_group(Crowd& crowd, Dice& dice, const Units& units, std::size_t count, 
   crowd.disks += count;
 }
 
-// On a lattice (alone) or at random.
+// One group on a lattice, or several at random.
 void add_gas(Crowd& crowd, Dice& dice, const Units& units, std::size_t disks) {
   if (dice.chance(0.35)) {
     const bool square = dice.chance(0.5);
@@ -166,7 +167,7 @@ void add_giants(Crowd& crowd, Dice& dice, const Units& units) {
 struct Shape {
   std::vector<Vec2> places;
   std::vector<double> radii;
-  double width = 0.0, height = 0.0;  // of what they take up, from the corner of the box
+  double width = 0.0, height = 0.0;  // size of the part used, from the corner of the box
 };
 
 Shape block_of(double r, std::size_t columns, std::size_t rows) {
@@ -193,7 +194,7 @@ Shape heap_of(double r, std::size_t rows) {
   return shape;
 }
 
-// Unequal disks in a row, centres at one height.
+// Unequal disks in a row, with centres at one height.
 Shape chain_of(Dice& dice, double r, std::size_t disks) {
   Shape shape;
   for (std::size_t k = 0; k < disks; ++k) {
@@ -206,7 +207,7 @@ Shape chain_of(Dice& dice, double r, std::size_t disks) {
   return shape;
 }
 
-// The corners of a box, and what else lies along its walls.
+// Disks in the corners of a box and along its walls.
 Shape wallflowers_of(Dice& dice, double r) {
   Shape shape;
   shape.width = shape.height = 16.0 * r;
@@ -216,10 +217,10 @@ Shape wallflowers_of(Dice& dice, double r) {
   return shape;
 }
 
-// Places and radii that are whole multiples of half a radius: many events come at one time, and disks touch that pass.
+// Positions and radii are whole multiples of half a radius: many events come at the same time, and passing disks touch.
 Shape grid_of(Dice& dice, double r) {
   Shape shape;
-  const std::size_t columns = 12 + dice.below(13);  // half radii
+  const std::size_t columns = 12 + dice.below(13);  // in half radii
   const std::size_t rows = 12 + dice.below(13);
   shape.width = 0.5 * r * static_cast<double>(columns);
   shape.height = 0.5 * r * static_cast<double>(rows);
@@ -271,23 +272,23 @@ std::vector<Vec2> listed_velocities(Dice& dice, const Units& units, std::size_t 
   std::vector<Vec2> list(disks);
   const auto speed = [&] { return rounded(units.speed * dice.in(-1.0, 1.0)); };
   switch (dice.below(5)) {
-    case 0: {  // one flies, the others wait
+    case 0: {  // one disk flies, the others are at rest
       const std::size_t first = dice.below(disks);
       list[first] = {speed(), dice.chance(0.5) ? 0.0 : speed()};
       break;
     }
-    case 1:  // all fly alike: contacts without approach
+    case 1:  // all have the same velocity: contacts without approach
       list.assign(disks, {speed(), speed()});
       break;
     case 2:
       for (Vec2& v : list) v = {speed(), speed()};
       break;
-    case 3: {  // on a grid, too
+    case 3: {  // velocities on a grid, too
       const auto step = [&] { return units.speed * dice.pick({-1.0, -0.5, 0.0, 0.5, 1.0}); };
       for (Vec2& v : list) v = {step(), step()};
       break;
     }
-    default:  // all at rest
+    default:  // all are at rest
       break;
   }
   return list;
@@ -301,7 +302,7 @@ void add_touching(Crowd& crowd, Dice& dice, const Units& units) {
   const double room_y = r * (dice.chance(0.9) ? dice.pick({2.0, 4.0, 20.0}) : 0.0);
   crowd.width = std::max(4.0 * r, shape.width + room_x);
   crowd.height = std::max(4.0 * r, shape.height + room_y);
-  if (dice.chance(0.3)) {  // off the walls
+  if (dice.chance(0.3)) {  // away from the walls
     for (Vec2& p : shape.places)
       p = {p.x + 0.5 * (crowd.width - shape.width), p.y + 0.5 * (crowd.height - shape.height)};
   }

@@ -21,7 +21,7 @@ std::string with_viscosity(Dice& dice, const Units& units, double restitution, b
                       fmt::format("restitution = {{ viscoelastic = {}, least = {} }}\n", a, restitution));
 }
 
-// Gives a name to the [[disks]] blocks that have none. Returns the names of all, and of those that move.
+// Gives names to the [[disks]] tables that have none. Returns all names, and those of groups that move.
 std::string name_groups(std::string text, std::vector<std::string>& all, std::vector<std::string>& moving) {
   constexpr std::string_view head = "[[disks]]\n", fixed = "fixed = true\n", name = "name = \"";
   for (std::size_t at = 0; (at = text.find(head, at)) != std::string::npos;) {
@@ -39,7 +39,7 @@ std::string name_groups(std::string text, std::vector<std::string>& all, std::ve
   return text;
 }
 
-// In a few scenes pairs of groups have a restitution of their own.
+// In a few scenes pairs of groups have their own restitution.
 std::string with_pairs(Dice& dice, const Units& units, bool brownian, std::string text) {
   if (!dice.chance(0.2)) return text;
   std::vector<std::string> all, moving;
@@ -48,7 +48,7 @@ std::string with_pairs(Dice& dice, const Units& units, bool brownian, std::strin
     if (text.find("[[sources]]") != std::string::npos) names->emplace_back("sources");
   }
   if (moving.empty()) return text;
-  const std::string& one = moving[dice.below(moving.size())];  // in all of the pairs, so that each is stated once
+  const std::string& one = moving[dice.below(moving.size())];  // it is in all pairs, so that none is stated twice
   for (const std::string& other : all) {
     if (!dice.chance(0.6)) continue;
     text += fmt::format("[[physics.pairs]]\ngroups = [\"{}\", \"{}\"]\nrestitution = ", one, other);

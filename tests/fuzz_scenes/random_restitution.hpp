@@ -10,8 +10,8 @@ namespace carom::fuzz {
 
 double random_restitution(Dice& dice);
 
-// The scene, whose [physics] has this restitution, perhaps with one that depends on the speed in its place, and with
-// pairs of groups that have their own. brownian: its velocities are drawn, and no law of speeds is allowed.
+// The scene with this restitution in [physics], possibly replaced by one that depends on the speed, and with pairs of
+// groups that have their own. brownian: velocities are drawn, so no law may depend on speed.
 std::string with_restitution_laws(Dice& dice, const Units& units, double restitution, bool brownian, std::string text);
 
 }  // namespace carom::fuzz

@@ -9,7 +9,7 @@ namespace carom::fuzz {
 
 namespace {
 
-// Without braces. perfect: surfaces lose no energy.
+// The value of the key, without braces. perfect: surfaces lose no energy.
 std::string roughness_text(Dice& dice, bool perfect) {
   if (perfect) return fmt::format("tangential_restitution = {}", dice.chance(0.8) ? 1.0 : -1.0);
   const double b = dice.chance(0.3) ? dice.pick({-1.0, -0.5, 0.0, 1.0}) : rounded(dice.in(-1.0, 1.0));

@@ -8,8 +8,8 @@
 
 namespace carom::fuzz {
 
-// The scene with a roughness, perhaps of walls too, and with spins for some groups and sources. heap: surfaces lose no
-// energy, unless the scene has a remedy for the collapse in which it would end.
+// The scene with rough disks, possibly also rough walls, and with spins for some groups and sources. heap: surfaces
+// lose no energy, unless the scene has a remedy for the collapse that would follow.
 std::string with_rough_disks(Dice& dice, const Units& units, double largest_radius, bool heap, std::string text);
 
 }  // namespace carom::fuzz

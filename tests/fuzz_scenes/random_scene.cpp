@@ -23,10 +23,10 @@ struct Draft {
   Crowd crowd;
   double width = 0.0, height = 0.0;
   std::array<std::string, 4> sides;
-  double shear = 0.0;  // of a box that is periodic both ways: nothing else acts there
+  double shear = 0.0;  // only in a box periodic along both axes, without other forces
   double gravity = 0.0, restitution = 1.0, wall_restitution = 1.0, diffusion = 0.0;
-  bool only_reflects = false;  // walls: no thermal ones
-  double speed = 0.0;          // that disks have, about
+  bool only_reflects = false;  // walls that only reflect: no thermal ones
+  double speed = 0.0;          // typical speed of disks
   double dt = 0.0, t_end = 0.0;
 
   double spacing() const {
@@ -71,7 +71,7 @@ void choose_sides(Dice& dice, Draft& draft) {
   }
 }
 
-// Strains of up to some units while disks go as far as they are apart.
+// Strains of up to some units while disks move by about their distance.
 void choose_shear(Dice& dice, Draft& draft) {
   const bool periodic =
       std::all_of(draft.sides.begin(), draft.sides.end(), [](const std::string& s) { return s == "periodic"; });
@@ -92,7 +92,7 @@ void choose_box(Dice& dice, Draft& draft) {
   const double area =
       draft.crowd.disks == 0 ? r * r * dice.in(20.0, 1000.0) : draft.crowd.area / draft.crowd.packing_fraction;
   const double aspect = dice.chance(0.7) ? dice.in(0.5, 2.0) : dice.decades(-2, 2);
-  double narrowest = dice.chance(0.1) ? 4.0 * r : 4.01 * r;  // two diameters: as narrow as a periodic box may be
+  double narrowest = dice.chance(0.1) ? 4.0 * r : 4.01 * r;  // two diameters, the least width of a periodic box
   if (draft.shear != 0.0) narrowest *= 2.0;
   draft.height = std::max(narrowest, std::sqrt(area / aspect));
   draft.width = std::max(narrowest, area / draft.height);
@@ -122,7 +122,7 @@ void choose_times(Dice& dice, Draft& draft) {
       dice.chance(0.85) ? dice.pick({0.03, 0.1, 0.3, 0.5, 0.7, 1.0}) : dice.pick({1e-6, 1e-3, 3.0, 10.0});
   const double dt = rounded(share * draft.crowd.smallest / draft.speed);
   const auto steps = static_cast<double>(crowd ? 3 + dice.below(6) : pile ? 20 + dice.below(300) : 10 + dice.below(70));
-  const double part = dice.chance(0.7) ? 0.0 : dice.unit();  // of a step, left over at the end
+  const double part = dice.chance(0.7) ? 0.0 : dice.unit();  // part of a step that is left over at the end
   const bool brownian = dice.chance(0.18) && draft.shear == 0.0;
   if (!exact || brownian) draft.dt = dt;
   if (brownian) draft.diffusion = rounded(0.5 * draft.speed * draft.speed * dt);
@@ -134,7 +134,7 @@ void choose_times(Dice& dice, Draft& draft) {
   if (dice.chance(0.01)) draft.t_end = 0.0;
 }
 
-// Some walls have a restitution of their own, or a temperature.
+// Some walls have their own restitution, or a temperature.
 std::string side_line(Dice& dice, const Draft& draft, std::string_view name, const std::string& kind) {
   if (kind == "wall" && !draft.only_reflects && draft.diffusion == 0.0 && dice.chance(0.04)) {
     const double energy = draft.units.mass * draft.units.speed * draft.units.speed;
@@ -167,14 +167,14 @@ std::string box_text(Dice& dice, const Draft& draft) {
   return text;
 }
 
-// Mostly downwards, else along another axis or in any direction.
+// Mostly downwards, otherwise along another axis or in any direction.
 std::string gravity_text(Dice& dice, double g) {
   if (dice.chance(0.6)) return fmt::format("{}", g);
   if (dice.chance(0.3)) return dice.pick({0.0, 1.0}) > 0.0 ? fmt::format("[{}, 0]", g) : fmt::format("[{}, 0]", -g);
   return fmt::format("[{}, {}]", rounded(g * dice.in(-1.0, 1.0)), rounded(g * dice.in(-1.0, 0.2)));
 }
 
-// Here and there, where velocities are velocities.
+// In some scenes with real velocities.
 std::string thermostat_text(Dice& dice, const Draft& draft) {
   if (draft.diffusion > 0.0 || !dice.chance(0.08)) return "";
   const double energy = draft.units.mass * draft.units.speed * draft.units.speed;
@@ -195,13 +195,13 @@ std::string physics_text(Dice& dice, const Draft& draft) {
   if (draft.shear != 0.0) return text;
   const bool dissipates = draft.restitution < 1.0 || draft.wall_restitution < 1.0;
   if (!dice.chance(draft.method != "exact" ? 0.04 : dissipates ? 0.85 : 0.1)) return text;
-  // A heap at rest has some events a contact and contact time.
+  // A heap at rest has some events per contact in each contact time.
   const double least = dice.chance(0.05) ? 0.0 : 2e-5 * static_cast<double>(draft.crowd.disks) * draft.t_end;
   const double time = std::max(least, draft.units.length / draft.units.speed * dice.decades(-6, 0));
   return text + fmt::format("collapse = {{ model = \"tc\", contact_time = {} }}\n", rounded(time));
 }
 
-// The crowd's text, here and there with a region: most of the box, so that there is room for all.
+// The crowd's text, in some scenes with a region, which is most of the box, so that there is room for all disks.
 std::string disks_text(Dice& dice, const Draft& draft) {
   std::string text = draft.crowd.text;
   for (std::size_t at = 0; (at = text.find(region_mark, at)) != std::string::npos;) {
@@ -217,7 +217,7 @@ std::string disks_text(Dice& dice, const Draft& draft) {
   return text;
 }
 
-// Fixed disks, after the others; in a crowd whose places are listed they lie along the left side.
+// Fixed disks, after the others; if the disks are listed one by one the fixed disks are along the left side.
 std::string obstacles_text(Dice& dice, const Draft& draft) {
   const bool room = draft.cast == Cast::gas || draft.cast == Cast::few || draft.cast == Cast::pile ||
                     draft.cast == Cast::none || draft.cast == Cast::grown;
@@ -229,7 +229,7 @@ std::string obstacles_text(Dice& dice, const Draft& draft) {
                      count, 0.5 * largest, largest);
 }
 
-// Some walls vibrate, or drift as far as the room allows that they have; across periodic sides as far as they like.
+// Some walls vibrate, or drift as far as their room allows; across periodic sides they drift without limit.
 std::string wall_motion_line(Dice& dice, const Draft& draft, double x, double y, double length) {
   if (draft.only_reflects || draft.diffusion > 0.0 || !dice.chance(0.4)) return "";
   const auto room = [&](double c, double size) { return std::max(0.0, std::min(c, size - c) - length); };
@@ -252,7 +252,7 @@ std::string wall_motion_line(Dice& dice, const Draft& draft, double x, double y,
   return vx > 0.0 || vy > 0.0 ? fmt::format("motion = {{ velocity = [{}, {}] }}\n", -vx, vy) : "";
 }
 
-// Short inner walls; a sink among them where Brownian motion does not forbid it.
+// Short inner walls, some of them sinks unless there is Brownian motion.
 std::string walls_text(Dice& dice, const Draft& draft) {
   const bool room =
       draft.cast == Cast::gas || draft.cast == Cast::few || draft.cast == Cast::pile || draft.cast == Cast::grown;
@@ -343,7 +343,7 @@ std::string random_scene(std::uint64_t seed, std::uint32_t number, std::uint32_t
   text += box_text(dice, draft);
   text += physics_text(dice, draft);
   text += disks_text(dice, draft);
-  if (draft.shear == 0.0) {  // where a side that moves runs into one, the scene is drawn anew
+  if (draft.shear == 0.0) {  // if a moving side runs into one, the scene is drawn again
     text += obstacles_text(dice, draft);
     text += walls_text(dice, draft);
   }
@@ -377,7 +377,7 @@ std::string random_oracle_scene(std::uint64_t seed, std::uint32_t number, std::u
   text +=
       fmt::format("[physics]\ngravity = {}\nrestitution = {}\n", gravity_text(dice, draft.gravity), draft.restitution);
   text += disks_text(dice, draft);
-  if (draft.shear == 0.0) {  // where a side that moves runs into one, the scene is drawn anew
+  if (draft.shear == 0.0) {  // if a moving side runs into one, the scene is drawn again
     text += obstacles_text(dice, draft);
     text += walls_text(dice, draft);
   }

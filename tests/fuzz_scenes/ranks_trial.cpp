@@ -25,8 +25,8 @@ constexpr int steps = 15;
 
 struct RankTrace {
   std::vector<std::uint64_t> hashes;  // after every step
-  std::vector<std::string> said;      // warnings, and the error that ended it
-  bool alone = false;                 // one rank runs all
+  std::vector<std::string> said;      // warnings, and the error that ended the run
+  bool alone = false;                 // one rank runs all disks
 };
 
 template <class Hash>

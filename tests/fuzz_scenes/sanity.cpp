@@ -15,19 +15,19 @@ namespace carom::fuzz {
 
 namespace {
 
-// Rounding, over many collisions.
+// Allowance for rounding over many collisions.
 constexpr double rounding = 1e-9;
-// What a warning would have reported: a little more than the bound of overlaps that only the next step finds.
+// Overlaps above this must be warned of: it is a little more than the bound, as some are found only in the next step.
 constexpr double silent_overlap = 0.11;
-// TC model under gravity: energy gained, over the energy at the start.
+// In the TC model under gravity: energy gained, relative to that at the start.
 constexpr double silent_heating = 0.01;
 
-// What rounding of energies is measured by.
+// The scale for the rounding of energies.
 double size_of(const Energy& energy) {
   return energy.kinetic + std::abs(energy.potential);
 }
 
-// Of two disks, or of one and a wall, in exact runs; over the smallest radius.
+// The overlap allowed for two disks, or for a disk and a wall, in exact runs; over the smallest radius.
 double allowed_overlap(const Scene& scene, const Disks& disks) {
   const double smallest = disks.empty() ? 1.0 : smallest_radius(disks);
   return 1e-11 + 64.0 * 0x1p-52 * std::max(scene.box.width, scene.box.height) / smallest;
@@ -83,8 +83,8 @@ void Sanity::look_at_places(const State& state) {
   say_later(state, unsaid_place_, outside);
 }
 
-// What a disk meets on its way out of a collision is found a step later, and warned of then; by rollback some frames
-// later, when the two part.
+// An overlap that a disk gets into after a collision is found a step later, and warned of then; in rollback some frames
+// later, when the two separate.
 void Sanity::say_later(const State& state, Unsaid& unsaid, const std::string& found) {
   const int patience = scene_.run.method == Method::rollback ? 30 : 1;
   if (!warnings_.empty()) return;
@@ -125,8 +125,8 @@ void Sanity::look_at_counts(const State& state) {
   before_ = c;
 }
 
-// The k-th disk of a source is due at k / rate: all that are have come, or wait. A step sees those of its start, a
-// frame of rollback those of the start of its dt.
+// The k-th disk of a source is due at k / rate: all disks due have come, or wait. A step handles those due at its
+// start, a frame of rollback those due at the start of its dt.
 void Sanity::look_at_sources(const State& state, double before) {
   double least = 0.0, most = 0.0;
   for (const Source& source : scene_.sources) {
@@ -150,7 +150,7 @@ void Sanity::look_at_overlaps(const State& state) {
   const double beyond = wall_overlap(state.disks, box);
   if (scene_.run.method == Method::exact) {
     const double allowed = allowed_overlap(scene_, state.disks);
-    const bool through_sinks = has_sinks(scene_);  // a disk that leaves may stand beyond it
+    const bool through_sinks = has_sinks(scene_);  // a disk that leaves may be beyond the side
     if (overlap > allowed) blame(state, fmt::format("two disks overlap by {} of the sum of their radii", overlap));
     if (beyond > allowed && !through_sinks)
       blame(state, fmt::format("a disk is beyond a wall or an obstacle by {} radii", beyond));
@@ -159,7 +159,7 @@ void Sanity::look_at_overlaps(const State& state) {
   say_later(state, unsaid_overlap_, overlap > silent_overlap ? fmt::format("an overlap of {}", overlap) : "");
 }
 
-// What the sides, the walls that move and gravity gave. Sums of many impulses are rounded like sums of momenta.
+// The momentum given by sides, moving walls and gravity. Sums of many impulses are rounded like sums of momenta.
 void Sanity::look_at_momentum(const State& state) {
   const Physics& p = scene_.physics;
   const Domain& box = scene_.box;
@@ -184,7 +184,7 @@ void Sanity::look_at_momentum(const State& state) {
   const double fallen_y = -mass * p.gravity.down * (state.time);
   const double x = momentum_.x + fallen_x + given(Side::left, Side::right, 0);
   const double y = momentum_.y + fallen_y + given(Side::bottom, Side::top, 1);
-  // A thermal side draws the velocity along it anew.
+  // A thermal side draws the velocity along it, too.
   const bool drawn_x = box.is_thermal(Side::bottom) || box.is_thermal(Side::top);
   const bool drawn_y = box.is_thermal(Side::left) || box.is_thermal(Side::right);
   if (!drawn_x && !box.shear.acts() && std::abs(now.x - x) > rounding * size(Side::left, Side::right, 0, fallen_x)) {
@@ -204,8 +204,8 @@ void Sanity::look_at_energy(const State& state) {
   const bool falls_for_ever =
       (p.gravity.down != 0.0 && box.periodic_y()) || (p.gravity.left != 0.0 && box.periodic_x());
   if (falls_for_ever) return;
-  if (p.gravity.acts() && scene_.run.method != Method::exact) return;  // right to first order
-  const bool takes = has_sinks(scene_);                                // energy that is positive
+  if (p.gravity.acts() && scene_.run.method != Method::exact) return;  // only accurate to first order
+  const bool takes = has_sinks(scene_);                                // disks that leave take positive energy
   if (takes && (p.gravity.down < 0.0 || p.gravity.left < 0.0)) return;
   const Counters& c = state.counters;
   double given = c.shear_work + c.wall_work + c.thermostat_heat + c.emitted_energy;

@@ -1,5 +1,5 @@
-// What must hold in any run, whatever the scene: numbers are finite, disks stay in the box, and disks, momentum and
-// energy are conserved, unless a warning says so.
+// Conditions that must hold in any run of any scene: numbers are finite, disks stay in the box, and disks, momentum and
+// energy are conserved, unless a warning says otherwise.
 #pragma once
 
 #include <string>
@@ -15,21 +15,21 @@ class Sanity {
  public:
   Sanity(const Scene& scene, const State& start);
 
-  // After a step, with what was warned of in it.
+  // To be called after each step, with the warnings raised in it.
   void look(const State& state, const std::string& warnings);
-  // Disks at a time within a window of exact, looked at all pairs by all pairs: nothing overlaps, whatever the engines
-  // make of it.
+  // Compares all pairs of disks at a time within a window of exact: none may overlap, independently of the engines' own
+  // checks.
   void look_within(const Disks& disks, double time);
 
-  // The first thing that was wrong, empty if nothing was.
+  // The first fault found; empty if there is none.
   const std::string& fault() const { return fault_; }
 
  private:
   void blame(const State& state, const std::string& what);
-  // Something that a warning has to tell.
+  // A fault that a warning still has to report.
   struct Unsaid {
     std::string what;
-    int steps = 0;  // since
+    int steps = 0;  // steps since it was found
   };
   void say_later(const State& state, Unsaid& unsaid, const std::string& found);
   void look_at_places(const State& state);

@@ -13,10 +13,10 @@ namespace carom::fuzz {
 
 namespace {
 
-// Shares of a step at which frames are taken.
+// Times of frames within a step, as shares of it.
 constexpr std::array<double, 2> looks{0.3125, 0.75};
 constexpr std::size_t release_interval = 3;
-// A run with more events than this is cut short.
+// A run is ended after more events than this.
 constexpr Count most_events = 100'000;
 
 Moment moment_of(Engine& engine, double before, Handling handling) {

@@ -24,23 +24,23 @@ namespace carom::fuzz {
 
 namespace {
 
-// Steps that are compared, and disks times steps.
+// Limits: steps that are compared, and disks times steps.
 constexpr std::size_t most_steps = 250;
 constexpr std::size_t most_work = 30'000;
 constexpr std::size_t least_steps = 8;
 
 struct Variant {
-  Threads threads;  // count 0: the reference
+  Threads threads;  // count 0 means the reference
   Handling handling;
 };
 
-// Blocks so small that small scenes have many; with a divisor of 1 they have one.
+// The blocks of work are so small that small scenes have many; with a divisor of 1 they have a single one.
 constexpr Variant variants[] = {
     {{1, 1}, Handling::looked_at},   {{1, 128}, Handling::left_alone}, {{2, 128}, Handling::looked_at},
     {{2, 1}, Handling::left_alone},  {{3, 1024}, Handling::released},  {{5, 64}, Handling::looked_at},
     {{8, 512}, Handling::looked_at},
 };
-// Those that take turns in a run that is interrupted.
+// The engines that take turns in an interrupted run.
 constexpr Threads turns[] = {{3, 512}, {0, 1}, {1, 1}, {2, 128}, {5, 1024}};
 
 std::unique_ptr<Engine> make_engine(const Threads& threads, const Scene& scene, State state) {
@@ -95,7 +95,7 @@ class Court {
                                                           : "cut short");
   }
 
-  // Two disks that go through each other overlap for a while: seen from within a window, not from its ends.
+  // Two disks that pass through each other overlap for a while: this shows within a window, not at its ends.
   void look_within(const Engine& engine, double before, Sanity& sanity) const {
     constexpr int looks = 12;
     constexpr std::size_t most_disks = 500;
@@ -115,7 +115,7 @@ class Court {
     if (!what.empty()) blame(fmt::format("{}: {}", name_of(v.threads), what));
   }
 
-  // Stopped after every second or third step, it goes on from what a checkpoint holds of it.
+  // The run is stopped after every second or third step, and goes on from what a checkpoint has of it.
   void interrupt(std::size_t first) {
     RunRecord record;
     record.scene_text = resolved_toml(scene_);
@@ -135,8 +135,8 @@ class Court {
     if (!what.empty()) blame(fmt::format("interrupted and resumed ({}): {}", first, what));
   }
 
-  // What a run that was stopped by its physics left fails again, at the same place. Where time all but stands still it
-  // takes some windows to see that.
+  // A run stopped by its physics must fail again at the same place. If time has nearly come to a stop this takes some
+  // windows.
   void fail_again() {
     if (expected_.error.find("all but stands still") != std::string::npos) return;
     for (const Threads& threads : {turns[1], turns[3]}) {
@@ -150,7 +150,7 @@ class Court {
     }
   }
 
-  // The run as the program drives it, with frames every so often, or (every < 0) without any.
+  // Runs the scene as the program does, with frames every `every`, or without frames (every < 0).
   std::vector<Frame> run_with(const Threads& threads, double every) {
     Scene scene = scene_;
     scene.output.every = std::max(every, 0.0);
@@ -189,7 +189,7 @@ class Court {
   Trace expected_;
 };
 
-// The scene's disks, made in every way; what is refused is refused alike. False if it is.
+// Makes the disks of the scene in every way; they must be the same, and errors, too. Returns false on an error.
 bool make_start(const Scene& scene, State& start, Trial& trial) {
   try {
     start = initial_state(scene);
@@ -211,7 +211,7 @@ bool make_start(const Scene& scene, State& start, Trial& trial) {
   return trial.refusal.empty();
 }
 
-// The scene as the program writes it down is the same scene. A choice of method = "auto" is made once.
+// The scene as written by the program must be the same scene. The choice of method = "auto" is made only once.
 void read_again(Scene scene, const State& start, Trial& trial) {
   scene.run.automatic = false;
   const std::string text = resolved_toml(scene);

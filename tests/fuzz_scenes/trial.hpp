@@ -1,5 +1,5 @@
-// One scene: every engine, at every number of threads, with frames, interrupted and resumed, has the reference's bits,
-// and they make sense.
+// The trial of a scene: every engine has the bits of the reference, at every number of threads, with frames,
+// interrupted and resumed, and the results are plausible.
 #pragma once
 
 #include <cstddef>
@@ -9,21 +9,22 @@
 namespace carom::fuzz {
 
 struct Trial {
-  std::string refusal;              // why there is no such scene: the error's line; empty if there is
-  std::string account;              // what the run was: method, disks, steps, how it ended
-  std::vector<std::string> faults;  // one line each
+  std::string refusal;              // the error if the scene cannot be made; otherwise empty
+  std::string account;              // a description of the run: method, disks, steps, how it ended
+  std::vector<std::string> faults;  // one line for each fault
 };
 
-// folder: where relative paths of the scene start.
+// folder: to which relative paths in the scene refer.
 Trial try_scene(const std::string& text, const std::string& name, const std::string& folder = "");
 
-// The method `exact` against the all-pairs simulation of tests/support/event_oracle.hpp, for as long as chaos lets two
-// runs be compared.
+// Compares the method `exact` with the simulation of tests/support/event_oracle.hpp, which tests all pairs, for as long
+// as chaos allows.
 Trial try_against_oracle(const std::string& text, const std::string& name);
 
-// On two and on three ranks, step by step: the bits, warnings and errors of one machine.
+// On two and on three ranks, step by step: the bits, warnings and errors must be those of a single machine.
 struct RankTrial : Trial {
-  std::size_t on_slabs = 0, alone = 0;  // ranks that had a slab, and those of runs that one rank ran alone
+  std::size_t on_slabs = 0,
+              alone = 0;  // numbers of ranks that had a slab, and of those in runs that one rank ran alone
 };
 RankTrial try_on_ranks(const std::string& text, const std::string& name, const std::string& folder = "");
 

@@ -1,4 +1,4 @@
-// What a wide scene is to be, before it is text.
+// The plan of a wide scene, from which its text is made.
 #pragma once
 
 #include <string>
@@ -9,14 +9,14 @@
 namespace carom::fuzz {
 
 struct WideDraft {
-  bool for_oracle = false;  // disks, walls, periodic sides, gravity, restitution, shear: nothing else
+  bool for_oracle = false;  // only disks, walls, periodic sides, gravity, restitution, shear
   std::string method;
   Units units;
-  double radius = 0.0;  // of most disks, the largest of them
-  double ratio = 1.0;   // of their radii, at most
-  double giant = 0.0;   // radius of a few others; 0: none
+  double radius = 0.0;  // the largest radius of most disks
+  double ratio = 1.0;   // the largest ratio of their radii
+  double giant = 0.0;   // radius of a few other disks; 0: none
   std::size_t giants = 0;
-  std::size_t disks = 0;  // without giants
+  std::size_t disks = 0;  // number without giants
   double packing = 0.0;   // their area over that of the box
   double width = 0.0, height = 0.0;
   bool periodic_x = false, periodic_y = false;
@@ -30,7 +30,7 @@ struct WideDraft {
   bool is_exact() const { return method == "exact"; }
 };
 
-// [[walls]] and fixed [[disks]].
+// Tables [[walls]] and fixed [[disks]].
 std::string wide_walls_text(Dice& dice, const WideDraft& draft);
 std::string wide_obstacles_text(Dice& dice, const WideDraft& draft);
 

@@ -15,7 +15,7 @@ Vec2 anywhere(Dice& dice, const WideDraft& draft) {
   return {x, draft.height * dice.unit()};
 }
 
-// Mostly within the box, else on a side or in a corner.
+// A place mostly within the box, otherwise on a side or in a corner.
 Vec2 place_of_obstacle(Dice& dice, const WideDraft& draft) {
   Vec2 place = anywhere(dice, draft);
   if (dice.chance(0.25)) place.x = dice.pick({0.0, draft.width, 0.5 * draft.width});
@@ -23,7 +23,7 @@ Vec2 place_of_obstacle(Dice& dice, const WideDraft& draft) {
   return place;
 }
 
-// From one side to the other, straight or nearly so.
+// A wall from one side to the other, straight or nearly so.
 std::vector<Vec2> wall_through(Dice& dice, const WideDraft& draft) {
   const bool along_x = dice.chance(0.5);
   const double from = dice.chance(0.2) ? dice.pick({0.0, 0.5, 1.0}) : dice.unit();
@@ -46,7 +46,7 @@ std::vector<Vec2> zigzag(Dice& dice, const WideDraft& draft) {
   return points;
 }
 
-// A room within the box, closed or with one side missing.
+// Walls around a part of the box, closed or with one side missing.
 std::vector<Vec2> room(Dice& dice, const WideDraft& draft) {
   const double x = draft.width * dice.in(0.0, 0.4), x1 = draft.width * dice.in(0.6, 1.0);
   const double y = draft.height * dice.in(0.0, 0.4), y1 = draft.height * dice.in(0.6, 1.0);
@@ -72,7 +72,7 @@ struct Room {
   double low = 0.0, high = 0.0;
 };
 
-// How far the wall may go along an axis; without end across periodic sides.
+// How far the wall may move along an axis; without limit across periodic sides.
 Room room_of(const std::vector<Vec2>& points, double Vec2::*axis, double size, bool periodic) {
   if (periodic) return {-size, size};
   const auto [least, most] = std::minmax_element(points.begin(), points.end(),
@@ -126,7 +126,7 @@ std::string wide_obstacles_text(Dice& dice, const WideDraft& draft) {
   if (!dice.chance(0.4)) return "";
   std::string places, radii;
   const std::size_t count = dice.chance(0.8) ? 1 + dice.below(6) : 20 + dice.below(60);
-  double left = 0.25 * draft.width * draft.height;  // area that they may take up
+  double left = 0.25 * draft.width * draft.height;  // area left for obstacles
   for (std::size_t k = 0; k < count; ++k) {
     const double largest = std::min(0.7 * draft.narrow(), std::sqrt(left / 3.2));
     const double r = rounded(dice.chance(0.3) ? largest * dice.in(0.3, 1.0) : largest * dice.decades(-4, -1));

@@ -78,14 +78,14 @@ void choose_motion(Dice& dice, WideDraft& draft) {
   draft.restitution = dice.chance(0.6) ? 1.0 : random_restitution(dice);
 }
 
-// A run takes a disk some distances to its neighbours far, or through the box several times.
+// In a run a disk moves by some distances to its neighbours, or through the box several times.
 void choose_times(Dice& dice, WideDraft& draft) {
   const auto all = static_cast<double>(draft.disks + draft.giants);
   const double spacing = std::sqrt(draft.width * draft.height / all);
   const double speed = dice.chance(0.5) || draft.thermal == 0.0 ? draft.fastest() : draft.thermal;
   const double far = spacing * std::max(1.0, 0.2 / draft.packing * spacing / std::max(draft.width, draft.height));
   draft.t_end = far / speed * dice.in(0.5, draft.for_oracle ? 8.0 : 25.0);
-  if (dice.chance(0.2)) draft.t_end *= 10.0;  // many windows
+  if (dice.chance(0.2)) draft.t_end *= 10.0;  // a run of many windows
   draft.t_end = std::min(draft.t_end, 300.0 * std::max(draft.width, draft.height) / draft.fastest());
   const bool brownian = !draft.for_oracle && draft.shear == 0.0 && dice.chance(0.08);
   if (draft.is_exact() && !brownian) return;
@@ -196,7 +196,7 @@ std::string small_disks_text(Dice& dice, const WideDraft& draft, std::size_t cou
                              : fmt::format("radius = {{ uniform = [{}, {}] }}\n", rounded(r / draft.ratio), r);
   text += masses_text(dice, draft, 1.0);
   if (crowded || !dice.chance(0.3)) return text;
-  // A cluster that is half as dense as random disks can be.
+  // A cluster half as dense as random disks can be.
   const double size = r * std::sqrt(static_cast<double>(count) / 0.25) + r;
   if (size > 0.5 * draft.narrow()) return text;
   const double x = dice.in(size, draft.width - size);
@@ -215,7 +215,7 @@ std::string disks_text(Dice& dice, const WideDraft& draft) {
   const std::size_t first = jets ? 1 + dice.below(draft.disks - 1) : draft.disks;
   text += small_disks_text(dice, draft, first, 1.0);
   if (jets) text += small_disks_text(dice, draft, draft.disks - first, dice.pick({-1.0, 0.0, 1.0}));
-  if (draft.packing < 0.4 && dice.chance(0.15)) {  // one that is faster than all others
+  if (draft.packing < 0.4 && dice.chance(0.15)) {  // one disk that is faster than all others
     const double v = draft.fastest() * dice.pick({3.0, 20.0});
     text += fmt::format("[[disks]]\ncount = 1\npositions = \"random\"\nvelocities = [[{}, {}]]\nradius = {}\n",
                         rounded(v), rounded(v * dice.in(-1.0, 1.0)), draft.radius);

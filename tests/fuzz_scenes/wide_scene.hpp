@@ -8,7 +8,7 @@
 
 namespace carom::fuzz {
 
-// As random_scene and random_oracle_scene.
+// As for random_scene and random_oracle_scene.
 std::string wide_scene(std::uint64_t seed, std::uint32_t number, std::uint32_t attempt);
 std::string wide_oracle_scene(std::uint64_t seed, std::uint32_t number, std::uint32_t attempt);
 
