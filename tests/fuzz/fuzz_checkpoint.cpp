@@ -1,5 +1,5 @@
-// Any bytes behind a good checksum are a checkpoint or an InputError; a checkpoint gives the same bytes again. The
-// first byte chooses between that and the whole file, checksum and all.
+// Any bytes behind a right checksum are a checkpoint or give an InputError; a checkpoint, written again, has the same
+// bytes. The first byte decides between this and a whole file with its checksum.
 #include <unistd.h>
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Any text is a list of finite pairs or an InputError of one line.
+// Any text is a list of finite pairs or gives an InputError of one line.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,6 @@
-// Any bytes are a trajectory or an InputError; a frame that was read has whole columns. What the HDF5 library reads
-// from damaged files is outside our control, so the reader checks sizes and types itself, and repairs the file of a
-// killed writer (hdf5_superblock.hpp).
+// Any bytes are a trajectory or give an InputError; a frame that was read has whole columns. What the HDF5 library
+// reads from damaged files is not under our control, so the reader checks sizes and types itself, and repairs the file
+// of a killed writer (hdf5_superblock.hpp).
 #include <unistd.h>
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Any calls of the C library in any order, with any numbers: a status and a text, and never a crash.
+// Any calls of the C library in any order and with any numbers give a status and a text, and never a crash.
 #include <carom/carom.h>
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace {
 
-// Reads calls and their numbers from the fuzzer's bytes; 0 behind their end.
+// Reads calls and their numbers from the fuzzer's bytes; returns 0 after their end.
 class Bytes {
  public:
   Bytes(const std::uint8_t* data, std::size_t size) : data_(data), left_(size) {}
@@ -20,7 +20,7 @@ class Bytes {
     --left_;
     return *data_++;
   }
-  // Mostly of the box's size; now and then any bits at all.
+  // Mostly a number of the order of the box's size, sometimes arbitrary bits.
   double number() {
     const unsigned kind = byte();
     if (kind < 230) return (kind - 10.0) / 10.0;
@@ -111,7 +111,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   carom_world* world = nullptr;
   if (carom_from_scene(&scene, nullptr, &world) != CAROM_OK) std::abort();
   std::vector<char> saved;
-  // A PhysicsError ends the run, and a world with a disk too fast for its step has one at every step.
+  // A PhysicsError ends the run, since a world with a disk too fast for its step raises one in every step.
   for (int k = 0; k < 200 && !in.done(); ++k) {
     const carom_status status = call(world, in, saved);
     check(world, status);

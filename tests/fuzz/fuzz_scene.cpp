@@ -1,4 +1,5 @@
-// Any text is a scene or an InputError of one line; a scene's own text gives the same text again.
+// Any text is a scene or gives an InputError of one line; a scene that is written out and read again gives the same
+// text.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -17,7 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (std::string(error.what()).find('\n') != std::string::npos) std::abort();
     return 0;
   }
-  // What was accepted once is accepted again, and says the same.
+  // A scene that was accepted is accepted again, with the same text.
   if (carom::resolved_toml(carom::parse_scene(resolved, "again.toml", "/nonexistent")) != resolved) std::abort();
   return 0;
 }

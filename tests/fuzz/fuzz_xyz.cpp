@@ -1,4 +1,4 @@
-// Any text is a trajectory or an InputError; a frame that was read has whole columns.
+// Any text is a trajectory or gives an InputError; a frame that was read has whole columns.
 #include <unistd.h>
 
 #include <cstddef>
