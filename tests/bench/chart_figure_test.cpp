@@ -1,4 +1,4 @@
-// The pictures of the chart: what is drawn stands in chart.csv, inside its panel.
+// The pictures of the chart show the numbers of chart.csv, inside their panels.
 #include "app/chart/chart_figure.hpp"
 
 #include <gmock/gmock.h>
@@ -45,7 +45,7 @@ bool same(double a, double b) {
   return std::abs(a - b) <= 2e-5 * std::abs(b);
 }
 
-// A point is an error of the table or, drawn open, what it was seen to be below.
+// A point is an error in the table or, drawn open, a bound of one.
 bool is_in(const std::vector<Row>& rows, const LogPoint& p, bool of_crowd) {
   constexpr double floor = 1e-17;
   return std::any_of(rows.begin(), rows.end(), [&](const Row& r) {

@@ -1,4 +1,4 @@
-// The order of convergence: exact laws give their order, noise and rounding are left out of the fit.
+// The order of convergence: exact power laws give their order, and noise and rounding are left out of the fit.
 #include "app/chart/chart_fit.hpp"
 
 #include <gmock/gmock.h>
@@ -41,16 +41,16 @@ TEST(ChartFit, NoiseRoundingAndLargeErrorsAreLeftOut) {
   std::vector<FitPoint> points = law(1.0, 1.0, 0.0);
   const std::size_t clean = fit_order(points)->points;
   points.push_back({1e-5, 0.5, 0.4});    // within the noise of its seeds
-  points.push_back({1e-6, 1e-14, 0.0});  // rounding
-  points.push_back({1e-7, 0.1, 0.0});    // seen by chance
+  points.push_back({1e-6, 1e-14, 0.0});  // rounding error
+  points.push_back({1e-7, 0.1, 0.0});    // its standard error is 0 by chance
   points.push_back({1.0, 0.9, 0.0});     // not small
   const auto fit = fit_order(points);
   EXPECT_EQ(fit->points, clean);
   EXPECT_NEAR(fit->order, 1.0, 1e-12);
 }
 
-// Logarithms at -1, 0 and 1 times ln 2 with values 0, ln 2 and 0: a level line, with squares of residuals of 2/3 about
-// it, one degree of freedom, and a spread of 2.
+// Logarithms at -1, 0 and 1 times ln 2 with values 0, ln 2 and 0: the line is level, with squared residuals of 2/3, one
+// degree of freedom, and a spread of 2.
 TEST(ChartFit, TheErrorOfAnOrderIsThatOfALineThroughItsPoints) {
   const auto fit = fit_order({{0.04, 0.01, 0.0}, {0.02, 0.02, 0.0}, {0.01, 0.01, 0.0}});
   ASSERT_TRUE(fit.has_value());
@@ -63,7 +63,7 @@ TEST(ChartFit, TwoPointsAreNoFit) {
   EXPECT_FALSE(fit_order({}).has_value());
 }
 
-// Seed by seed, differences are taken to exact's run from the same start: what the seeds have in common drops out.
+// For each seed differences are taken to the run of exact from the same start, which removes what both have in common.
 TEST(ChartResult, RatesAreComparedSeedBySeed) {
   std::vector<std::vector<Sample>> samples;
   for (const double rate : {1.0, 2.0, 6.0}) {
@@ -75,12 +75,12 @@ TEST(ChartResult, RatesAreComparedSeedBySeed) {
     samples.push_back({exact, pairwise});
   }
   const SceneResult result = summed_up(chart_scenes().at(1), samples);
-  EXPECT_DOUBLE_EQ(result.unit, 1.0 / 3.0) << "exact's mean free time";
+  EXPECT_DOUBLE_EQ(result.unit, 1.0 / 3.0) << "the mean free time of exact";
   const Point& p = result.curves.at(1).points.at(0);
   EXPECT_EQ(p.seeds, 3U);
   EXPECT_NEAR(p[Measure::rate].value, -0.01, 1e-15);
   EXPECT_NEAR(p[Measure::rate].error, 0.0, 1e-15);
-  EXPECT_DOUBLE_EQ(p.cost, 2.0 / 3.0) << "the least of the seeds";
+  EXPECT_DOUBLE_EQ(p.cost, 2.0 / 3.0) << "the least over the seeds";
 }
 
 TEST(ChartTable, CostIsReadOffBetweenPoints) {
@@ -93,11 +93,12 @@ TEST(ChartTable, CostIsReadOffBetweenPoints) {
     curve.points.push_back(p);
   }
   EXPECT_NEAR(*cost_at(curve, Measure::path, 0.03), 1.0 / 0.03, 1e-9);
-  EXPECT_DOUBLE_EQ(*cost_at(curve, Measure::path, 0.2), 10.0) << "the cheapest point is good enough";
-  EXPECT_FALSE(cost_at(curve, Measure::path, 1e-3).has_value()) << "never guessed beyond the last point";
+  EXPECT_DOUBLE_EQ(*cost_at(curve, Measure::path, 0.2), 10.0) << "the cheapest point is accurate enough";
+  EXPECT_FALSE(cost_at(curve, Measure::path, 1e-3).has_value()) << "there is no extrapolation beyond the last point";
 }
 
-// Of Brownian motion: paths are compared with exact's at the same interval, spreads with those at the shortest one.
+// In Brownian motion paths are compared with those of exact at the same interval, spreads with those at the shortest
+// interval.
 TEST(ChartTable, ASpreadCostsTheIntervalThatItTakesByExactToo) {
   Curve curve{Method::exact, {}, {}};
   for (const double dt : {0.1, 0.01, 0.001}) {
@@ -109,7 +110,7 @@ TEST(ChartTable, ASpreadCostsTheIntervalThatItTakesByExactToo) {
   }
   EXPECT_DOUBLE_EQ(*cost_at(curve, Measure::path, 1e-9), 10.0);
   EXPECT_NEAR(*cost_at(curve, Measure::figure, 0.03), 1.0 / 0.03, 1e-9);
-  EXPECT_FALSE(cost_at(curve, Measure::figure, 1e-3).has_value()) << "what cannot be seen is not known";
+  EXPECT_FALSE(cost_at(curve, Measure::figure, 1e-3).has_value()) << "an error within the noise is unknown";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// carom chart --scene: the speed-accuracy chart of a scene of the user's own, and what it refuses.
+// carom chart --scene: the speed-accuracy chart of a user's own scene, and refused scenes.
 #include "tests/support/command_support.hpp"
 
 namespace carom {
@@ -46,7 +46,7 @@ TEST_F(ChartOwn, HasAllMethodsTheOwnStepAndATable) {
   ASSERT_EQ(j["scenes"].size(), 1U);
   EXPECT_EQ(j["scenes"][0]["scene"], "my.gas");
   EXPECT_EQ(j["scenes"][0]["title"], "it's mine");
-  EXPECT_EQ(j["seeds"], "11 to 12") << "its own and the next";
+  EXPECT_EQ(j["seeds"], "11 to 12") << "the scene's own seed and the next";
   EXPECT_THAT(j["scenes"][0]["text"].get<std::string>(), HasSubstr("seed = 11"));
   const std::string csv = text_of(at("out/chart_my.gas/chart.csv"));
   for (const char* const row : {"\nmy.gas,rollback,0.003,", "\nmy.gas,pairwise,0.003,", "\nmy.gas,exact,0,"}) {
@@ -58,7 +58,7 @@ TEST_F(ChartOwn, HasAllMethodsTheOwnStepAndATable) {
   expect_error("$C chart --tiny --scene my.gas.toml", 2, "chart.svg: exists already");
 }
 
-// After all runs it broke off with an error of the library that writes JSON, and had no pictures.
+// After all runs it once ended with an error of the JSON library, and without pictures.
 TEST_F(ChartOwn, ASceneOfAnyNameHasItsChart) {
   write("\"b\344d\".toml", gas);
   const Outcome o = shell("$C chart --tiny --scene '\"b\344d\".toml' -o odd");
@@ -68,7 +68,7 @@ TEST_F(ChartOwn, ASceneOfAnyNameHasItsChart) {
   EXPECT_THAT(text_of(at("odd/chart.csv")), HasSubstr("\n_b\344d_,exact,0,"));
 }
 
-// A flow heats what collisions cool: there is no cooling rate to be wrong in.
+// A flow heats what collisions cool, so there is no cooling rate.
 TEST_F(ChartOwn, ADissipativeShearFlowHasAPressure) {
   const std::string periodic = " --set 'box.bottom=\"periodic\"' --set 'box.top=\"periodic\"'";
   const std::string words = "chart --tiny --scene my.gas.toml --set physics.restitution=0.9" + periodic;
@@ -80,7 +80,7 @@ TEST_F(ChartOwn, ADissipativeShearFlowHasAPressure) {
   EXPECT_THAT(sheared.out, HasSubstr("collision rate and pressure to"));
 }
 
-// Paths are compared until a disk has collided twice in the mean, rates taken until 25 times.
+// Paths are compared until a disk has collided twice on average, and rates until it has collided 25 times.
 TEST_F(ChartOwn, TimesAreThoseOfSoManyCollisions) {
   const Outcome o = carom("chart --tiny --scene my.gas.toml --t-end 30 -o long");
   ASSERT_EQ(o.status, 0) << o.err;
@@ -94,7 +94,7 @@ TEST_F(ChartOwn, TimesAreThoseOfSoManyCollisions) {
   EXPECT_NEAR(collisions_a_disk_by(planned["length"]), 25.0, 1.0);
 }
 
-// Two disks on a line, no random numbers: one run is enough, without a standard error.
+// Two disks on a line and no random numbers: one run is enough, without a standard error.
 TEST_F(ChartOwn, AStartWithoutChanceIsRunOnce) {
   write("two.toml", R"([box]
 width = 10.0
@@ -127,7 +127,7 @@ t_end = 20.0
   EXPECT_GT(known, 10);
 }
 
-// What an inner wall takes of energy and momentum is no error of a method.
+// Energy and momentum taken by an inner wall are not errors of a method.
 TEST_F(ChartOwn, AnInnerWallTakesEnergyAndMomentum) {
   write("wall.toml", std::string(gas) + R"([[walls]]
 from = [2.0, 1.0]
@@ -142,7 +142,7 @@ restitution = 0.5
   EXPECT_EQ(csv.find(",momentum,"), std::string::npos) << csv;
 }
 
-// Paths are of the disks that move: fixed ones are not too many to compare, nor something that collides.
+// Paths are those of moving disks: fixed disks count neither against the limit for paths, nor as colliding disks.
 TEST_F(ChartOwn, FixedDisksAreNotCounted) {
   const std::string pegs =
       "[[disks]]\nfixed = true\ncount = 21000\npositions = \"random\"\nradius = 1e-6\nregion = [0.0, 0.0, 0.1, 0.1]\n";
@@ -153,7 +153,7 @@ TEST_F(ChartOwn, FixedDisksAreNotCounted) {
                "cannot be charted: nothing collides; expected two disks or more");
 }
 
-// Fixed disks before the others have the first ids.
+// Fixed disks that are listed first have the first ids.
 TEST_F(ChartOwn, FixedDisksMayComeFirst) {
   const std::string all = gas;
   const std::size_t disks = all.find("[[disks]]");

@@ -1,4 +1,4 @@
-// What the chart makes of samples, by hand: means over seeds, the table, and the text for a scene of one's own.
+// Results of the chart from samples by hand: means over seeds, the table, and the text for a user's own scene.
 #include "app/chart/chart_result.hpp"
 
 #include <gmock/gmock.h>
@@ -36,7 +36,7 @@ const Point& point(const SceneResult& result, Method method, double dt) {
   return *std::ranges::find(curve.points, dt, &Point::dt);
 }
 
-// 1, 2 and 6: a mean of 3 with a standard error of sqrt(7 / 3).
+// 1, 2 and 6 have a mean of 3 with a standard error of sqrt(7 / 3).
 TEST(ChartResult, ExactsErrorIsHowWellItsMeanIsKnown) {
   std::vector<std::vector<Sample>> samples;
   for (const double rate : {1.0, 2.0, 6.0}) {
@@ -63,7 +63,7 @@ TEST(ChartResult, ASingleRunMayBeWrongByAllOfIt) {
   EXPECT_EQ(point(result, Method::exact, 0.0)[Measure::rate].error, 1.0);
 }
 
-// Spreads are compared with exact's at the shortest step, rates with exact's at the same one.
+// Spreads are compared with those of exact at the shortest step, rates with those of exact at the same step.
 TEST(ChartResult, BrownianSpreadsAreComparedWithTheShortestStep) {
   std::vector<std::vector<Sample>> samples;
   for (const double shift : {-0.05, 0.05}) {
@@ -103,7 +103,7 @@ Point point_at(double dt, double cost, double path, double error = 0.0) {
   return p;
 }
 
-// Two steps of pairwise and exact, in units of half a time.
+// Two steps of pairwise, and exact, with half a unit of time as the unit.
 SceneResult by_hand() {
   SceneResult result{scene_named("fluid"), 0.5, 1.0, {}, {}};
   result.scene.name = "mine";
@@ -128,8 +128,8 @@ TEST(ChartTable, HasALineAPointAndMeasure) {
       "fluid_64,pairwise,0.032,1,2e-06,frames,1.5,,,,,\n");
 }
 
-// Ten disks for 100 units of time, 200 of the result's: 1e-6 s each make 2 ms. The second step's error is not seen, but
-// may be twice its standard error.
+// Ten disks for 100 units of time are 200 units of the result: at 1e-6 s each this takes 2 ms. The error of the second
+// step is within the noise, and may be twice its standard error.
 TEST(ChartText, SaysWhatARunCostsAndWhichIsTheCheapest) {
   const Scene scene = parse_scene(
       "[box]\nwidth = 20\nheight = 20\n[[disks]]\ncount = 10\npositions = \"random\"\nradius = 0.5\nmass = 1\n[run]\n"
@@ -144,7 +144,7 @@ TEST(ChartText, SaysWhatARunCostsAndWhichIsTheCheapest) {
   EXPECT_THAT(text, HasSubstr("for a path error of 0.01: exact\n"));
 }
 
-// A cost is per disk that moves, so that fixed ones add nothing to what a run costs: ten disks, as above.
+// Costs are per moving disk, so fixed disks add nothing: there are ten disks, as above.
 TEST(ChartText, FixedDisksCostNothing) {
   const Scene scene = parse_scene(
       "[box]\nwidth = 20\nheight = 20\n[[disks]]\ncount = 10\npositions = \"random\"\nradius = 0.5\nmass = 1\n"

@@ -1,4 +1,4 @@
-// What the chart measures, on runs so small that the result is known.
+// The quantities measured for the chart, in runs so small that the results are known.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,15 +23,15 @@
 namespace carom::chart {
 namespace {
 
-// A chart scene of few disks and short times.
+// A chart scene with few disks and short times.
 ChartScene small_fluid() {
   ChartScene scene = fluid_of(64);
   scene.flight = 0.28;
   return scene;
 }
 
-// Among corners, between walls that close and in a shear flow exact has no error but that of rounding, with the work of
-// walls and images left out, and short steps come nearer to it than long ones.
+// Among corners, between closing walls and in a shear flow exact has only rounding errors, when the work of walls and
+// images is subtracted, and short steps come closer to it than long ones.
 TEST(ChartSamples, WallsThatMoveAndShearAreScenesToo) {
   int seen = 0;
   for (ChartScene scene : chart_scenes()) {
@@ -47,7 +47,7 @@ TEST(ChartSamples, WallsThatMoveAndShearAreScenesToo) {
     EXPECT_LT(samples[0][Measure::overlap], 1e-12);
     EXPECT_GT(samples[0][Measure::rate], 0.1);
     EXPECT_LT(samples[0][Measure::energy], 1e-12);
-    EXPECT_LT(samples[1][Measure::energy], 1e-12) << "to rounding, in steps too";
+    EXPECT_LT(samples[1][Measure::energy], 1e-12) << "to rounding, in time stepping, too";
     if (scene.keeps_momentum) {
       EXPECT_LT(samples[0][Measure::momentum], 1e-12);
     }
@@ -57,7 +57,7 @@ TEST(ChartSamples, WallsThatMoveAndShearAreScenesToo) {
   EXPECT_EQ(seen, 3);
 }
 
-// Half a diameter a step: disks between the closing walls are pressed through one.
+// With a step of half a diameter disks between the closing walls are pressed through one of them.
 TEST(ChartSamples, AStepAtWhichTheMethodStopsHasNoPoint) {
   const auto& scenes = chart_scenes();
   ChartScene scene = *std::ranges::find(scenes, "closing", &ChartScene::name);
@@ -83,7 +83,7 @@ TEST(ChartSamples, ExactAgreesWithItselfAndShortStepsComeCloser) {
   const std::vector<Sample> samples = measure_seed(small_fluid(), 1, settings);
   ASSERT_EQ(samples.size(), 4U);
   EXPECT_LT(samples[0][Measure::path], 1e-10);
-  EXPECT_GT(samples[0][Measure::path], 0.0) << "one rounding away";
+  EXPECT_GT(samples[0][Measure::path], 0.0) << "the paths differ by a rounding";
   EXPECT_EQ(samples[0][Measure::missed], 0.0);
   EXPECT_EQ(samples[0][Measure::spurious], 0.0);
   EXPECT_EQ(samples[0][Measure::overlap], 0.0);
@@ -97,7 +97,7 @@ TEST(ChartSamples, ExactAgreesWithItselfAndShortStepsComeCloser) {
   }
 }
 
-// Where the reference ends, by id, and the pairs that have collided, sorted.
+// The final positions in the reference, by id, and the pairs that have collided, sorted.
 struct Ended {
   std::vector<Vec2> places;
   CollisionLog pairs;
@@ -115,7 +115,7 @@ Ended run_of(const ChartScene& scene, Method method, double dt) {
   return run;
 }
 
-// By the nearest image, in the mean.
+// The mean distance to the nearest image.
 double mean_way(const Domain& box, const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
   double sum = 0.0;
   for (std::size_t k = 0; k < a.size(); ++k) {
@@ -124,19 +124,19 @@ double mean_way(const Domain& box, const std::vector<Vec2>& a, const std::vector
   return sum / static_cast<double>(a.size());
 }
 
-// How many pairs of a are not in b; each that is there twice has to be there twice.
+// The number of pairs of a that are not in b; a pair that occurs twice in a has to occur twice in b.
 double lacking(const CollisionLog& a, const CollisionLog& b) {
   std::vector<std::pair<DiskId, DiskId>> rest;
   std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(rest));
   return static_cast<double>(rest.size());
 }
 
-// Long enough that disks go out of the box on one side and come in on the other.
+// Long enough for disks to leave the box on one side and come in on the other.
 TEST(ChartSamples, PathsAndPairsAreThoseOfTwoRuns) {
   ChartScene scene = fluid_of(64);
   scene.melting = 0.0;
   scene.flight = 1.5;
-  scene.length = 1.0;  // sixteen steps, each looked at
+  scene.length = 1.0;  // sixteen steps, with a look at each
   double largest = 0.0;
   const Ended exact = run_of(scene, Method::exact, 0.0);
   const Scene s = scene_of(scene, 1, Method::exact, 0.0, 0.0);
@@ -164,7 +164,7 @@ TEST(ChartSamples, PathsAndPairsAreThoseOfTwoRuns) {
   EXPECT_GT(largest, 0.0);
 }
 
-// Walls take momentum: where a scene is said to keep it, that is seen.
+// Walls take momentum: this is noticed if a scene is declared to conserve it.
 TEST(ChartSamples, MomentumThatIsLostIsSeen) {
   const auto& scenes = chart_scenes();
   ChartScene scene = *std::ranges::find(scenes, "gravity", &ChartScene::name);
@@ -175,7 +175,7 @@ TEST(ChartSamples, MomentumThatIsLostIsSeen) {
   EXPECT_GT(measure_seed(scene, 1, {{Method::exact, 0.0, 1}}).at(0)[Measure::momentum], 1e-3);
 }
 
-// Of the chart's scene of this name by exact, from one start.
+// A sample of this scene of the chart by exact, from one start.
 Sample by_exact(const std::string& name, double melting, double length, double dt = 0.0) {
   const auto& scenes = chart_scenes();
   ChartScene scene = *std::ranges::find(scenes, name, &ChartScene::name);
@@ -190,7 +190,7 @@ double rate_of(double z) {
   return 4.0 * (z - 1.0) / std::sqrt(std::numbers::pi);
 }
 
-// Energies are those of the thousand disks of one start, within a few per cent of temperature 1.
+// The energies of a thousand disks from a single start are within a few per cent of temperature 1.
 TEST(ChartSamples, FiguresAreThoseThatAreKnown) {
   constexpr double z_of_dilute = 1.236, z_of_cooling = 2.063, z_of_shear = 4.105;
   const auto compressibility = [](const Sample& sample, double packing_fraction) {
@@ -200,23 +200,24 @@ TEST(ChartSamples, FiguresAreThoseThatAreKnown) {
   EXPECT_NEAR(compressibility(dilute, 0.1), z_of_dilute, 0.08 * z_of_dilute);
   EXPECT_NEAR(dilute[Measure::rate], rate_of(z_of_dilute), 0.08 * rate_of(z_of_dilute));
   const Sample shear = by_exact("shear", 3.0, 1.0);
-  EXPECT_NEAR(compressibility(shear, 0.5), z_of_shear, 0.1 * z_of_shear) << "of velocities relative to the flow";
+  EXPECT_NEAR(compressibility(shear, 0.5), z_of_shear, 0.1 * z_of_shear) << "with velocities relative to the flow";
   EXPECT_NEAR(shear[Measure::rate], rate_of(z_of_shear), 0.1 * rate_of(z_of_shear));
-  // Haff's law: 1 / sqrt(T) rises by (1 - e^2) / 4 a collision of a disk. The start is melted without a loss.
+  // Haff's law: 1 / sqrt(T) rises by (1 - e^2) / 4 for each collision of a disk. The start is melted without loss.
   const Sample cooling = by_exact("cooling", 6.0, 2.0);
   const double haff = (1.0 - 0.9 * 0.9) / 4.0 * rate_of(z_of_cooling);
   EXPECT_NEAR(cooling[Measure::figure], haff, 0.1 * haff);
-  EXPECT_TRUE(std::isnan(cooling[Measure::energy])) << "which is not kept";
-  // Others are in the way of a Brownian disk: less than 1, the free one's, and more than 1 - 2 phi in the long run.
+  EXPECT_TRUE(std::isnan(cooling[Measure::energy])) << "which is not conserved";
+  // Other disks obstruct a Brownian disk: the ratio is below 1, that of a free disk, and above 1 - 2 phi, that of long
+  // times.
   const Sample brownian = by_exact("brownian", 3.0, 0.128, 0.0016);
   EXPECT_GT(brownian[Measure::figure], 0.45);
   EXPECT_LT(brownian[Measure::figure], 0.85);
 }
 
-// What is drawn of a scene of one's own: the drift of what its physics conserves, and the figure that goes with it.
+// The chart of a user's own scene has the drifts of what its physics conserves, and the figure that belongs to it.
 TEST(ChartSamples, ASceneOfOnesOwnHasTheDriftsOfWhatItKeeps) {
   struct Case {
-    const char* sides;  // of the box, with what is on its walls
+    const char* sides;  // lines of the box, and its walls
     const char* more;
     bool keeps_energy, keeps_momentum;
     Figure figure;
@@ -269,7 +270,7 @@ TEST(ChartSamples, ASeedUsesTheSettingsThatWantIt) {
   EXPECT_EQ(measure_seed(scene, 3, {{Method::exact, 0.0, 3}, {Method::pairwise, 0.01, 2}}).size(), 1U);
 }
 
-// The log of each reference has as many entries as its counter counts, and watching changes no bit.
+// The log of each reference has as many entries as its counter counts, and logging changes no bit.
 TEST(CollisionLog, HoldsWhatIsCounted) {
   for (const Method method : {Method::rollback, Method::pairwise, Method::exact}) {
     const Scene scene = scene_of(small_fluid(), 1, method, 0.01, 0.3);

@@ -1,5 +1,5 @@
-// What carom_figures makes of the words that it is called with: a misspelt part is named, rather than nothing measured,
-// and an option is no folder.
+// The arguments of carom_figures: a misspelt part gives an error, rather than no measurement, and an option is not
+// taken for a folder.
 #include "bench/support/figure_words.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
-// The yardstick of the benchmarks computes the same as the engine that it is compared with: a comparison with a program
-// that is wrong, or does less, would say nothing.
+// The yardstick of the benchmarks computes the same as the engine compared with it: a comparison with a program that is
+// wrong, or does less, would mean nothing.
 #include "bench/support/yardstick.hpp"
 
 #include <fmt/format.h>
@@ -25,9 +25,9 @@ Scene gas(int count, double packing_fraction, double t_end) {
 }
 
 // Within half the Lyapunov horizon of docs/reference_values.md (t = 21, 11, 6.8 at packing fractions 0.1, 0.3, 0.5)
-// both follow the same trajectory: every collision of one is a collision of the other, and disks are in the same
-// places. Its times are absolute (rounding 1e-15 at t = 10), which grows by exp(lambda t) = 4e6, 9e6 and 1e7: hence
-// 1e-5, not less.
+// both follow the same trajectory: each has the collisions of the other, and disks are in the same places. The
+// yardstick's times are absolute (rounding 1e-15 at t = 10), and errors grow by exp(lambda t) = 4e6, 9e6 and 1e7: hence
+// the tolerance of 1e-5.
 TEST(Yardstick, FollowsTheExactReference) {
   const double packing_fractions[] = {0.1, 0.3, 0.5};
   const double times[] = {10.0, 5.5, 3.4};
@@ -63,8 +63,8 @@ TEST(Yardstick, CollisionsAreCountedFromWhereItIs) {
   }
 }
 
-// Beyond it, over 200 collisions a disk: the collision rate 4 (Z - 1) / sqrt(pi) with Z(0.3) = 2.06326, to 1 % (the
-// standard error of 2e5 collisions is a third of that), the energy to rounding.
+// After that, over 200 collisions per disk: the collision rate is 4 (Z - 1) / sqrt(pi) with Z(0.3) = 2.06326, to 1 %
+// (the standard error of 2e5 collisions is a third of that), and the energy is constant to rounding.
 TEST(Yardstick, KeepsTheRateAndTheEnergy) {
   const Scene scene = gas(1000, 0.3, 100.0);
   const State initial = initial_state(scene);
@@ -80,7 +80,7 @@ TEST(Yardstick, KeepsTheRateAndTheEnergy) {
   EXPECT_LT(max_overlap(disks, scene.box), 1e-12);
 }
 
-// Of two rounds it was the slower one.
+// For two rounds it was once the slower one.
 TEST(Median, IsInTheMiddle) {
   EXPECT_EQ(bench::median({3.0}), 3.0);
   EXPECT_EQ(bench::median({4.0, 1.0}), 2.5);
