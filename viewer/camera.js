@@ -1,4 +1,4 @@
-// Which part of the plane the stage shows: lengths and pixels of the page.
+// The part of the plane shown on the stage: converts lengths to pixels of the page.
 export class Camera {
   constructor(box) {
     this.box = box;
@@ -14,7 +14,7 @@ export class Camera {
   fit() {
     const margin = 28;
     const { width, height } = this.box;
-    // On a stage that is all margin the box has a pixel.
+    // Even on a stage with no room inside its margin the box has a pixel.
     const [across, along] = [this.width, this.height].map((pixels) => Math.max(1, pixels - 2 * margin));
     this.scale = Math.min(across / width, along / height);
     this.x = width / 2;
@@ -32,7 +32,7 @@ export class Camera {
     this.y += dy / this.scale;
     this.fitted = false;
   }
-  // Zooms by a factor; the point of the page stays where it is.
+  // Zooms by a factor; this point of the page keeps its place.
   zoom(factor, px = this.width / 2, py = this.height / 2) {
     const [x, y] = this.toPlane(px, py);
     const fit = Math.min(this.width / this.box.width, this.height / this.box.height);

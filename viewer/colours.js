@@ -1,4 +1,4 @@
-// What the colour of a disk stands for, and which colour that is.
+// The quantity that colours stand for, and the colours of its values.
 import { roundAbove } from "./format.js";
 
 export const colourNames = {
@@ -16,13 +16,14 @@ const viridis = [
   0x440154, 0x481a6c, 0x472f7d, 0x414487, 0x39568c, 0x31688e, 0x2a788e, 0x23888e, 0x1f988b, 0x22a884, 0x35b779,
   0x54c568, 0x7ad151, 0xa5db36, 0xd2e21b, 0xfde725,
 ];
-// Okabe and Ito: they stay apart for all common kinds of colour blindness. Those of movies (io/movie/colour_scale.cpp).
+// Okabe and Ito: these colours can be told apart with all common kinds of colour blindness. They are those of movies
+// (io/movie/colour_scale.cpp).
 export const groupColours = [0x0072b2, 0xe69f00, 0x009e73, 0xd55e00, 0xcc79a7, 0x56b4e9, 0xf0e442, 0x999999];
 
 export const parts = (colour) => [colour >> 16, (colour >> 8) & 255, colour & 255];
 export const cssColour = (colour) => `#${colour.toString(16).padStart(6, "0")}`;
 
-// 256 colours, four bytes each.
+// 256 colours with four bytes each.
 export function palette(name) {
   const bytes = new Uint8Array(1024);
   for (let i = 0; i < 256; ++i) {
@@ -41,7 +42,7 @@ export function palette(name) {
   return bytes;
 }
 
-// The value by place that stays the same in all frames; null where it does not.
+// The values by place if they are the same in all frames; otherwise null.
 export function fixedValues(name, store) {
   if (name === "radius") return store.radius;
   if (name === "mass") return store.mass;
@@ -51,7 +52,7 @@ export function fixedValues(name, store) {
   return null;
 }
 
-// The ends of the scale as the run asks.
+// The ends of the scale that the run asks for.
 export function rangeOf(name, store) {
   if (name === "group" || name === "fixed") return [0, 8];
   if (name === "coordination") return [0, 6];

@@ -1,4 +1,4 @@
-// What the controls, the keys and the pointer ask of the page.
+// Connects the controls, the keys and the pointer with the page.
 import { element } from "./format.js";
 
 export const speeds = [0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8, 16];
@@ -68,7 +68,7 @@ function listenToPointers(viewer) {
 function followKey(viewer, event) {
   if (event.ctrlKey || event.metaKey || event.altKey) return;
   const { tagName, type } = event.target;
-  // What a control does with a key comes first.
+  // Keys that a control uses itself are left to it.
   if (tagName === "SELECT" || (tagName === "INPUT" && type === "number")) return;
   const ticks = tagName === "BUTTON" || type === "checkbox" || tagName === "SUMMARY";
   if (event.key === " " && ticks) return;

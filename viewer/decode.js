@@ -1,4 +1,4 @@
-// Blocks of frames as io/view/view_block.hpp packs them.
+// Unpacks blocks of frames, packed as in io/view/view_block.hpp.
 
 export function base64Bytes(text) {
   if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
@@ -24,7 +24,7 @@ export async function inflate(bytes) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-// The bytes behind a text of the page. Throws an Error that says what is wrong with them.
+// The bytes packed in a text of the page. Throws an Error that says what is wrong with them.
 export async function unpackText(text, length, check) {
   if (text === null || text.length < 4 * Math.ceil(length / 3)) throw new Error("the file breaks off there");
   let packed;
@@ -70,7 +70,7 @@ class BlockReader {
   }
 }
 
-// The places of all frames; frames with the same disks share an array.
+// The places in all frames; frames with the same disks share an array.
 function readPlaces(reader, frames, places) {
   const changes = [];
   const lists = [];
@@ -93,7 +93,7 @@ function readPlaces(reader, frames, places) {
   return { changes, lists };
 }
 
-// One axis of all frames, in whole numbers.
+// One axis of all frames, as whole numbers.
 function readAxis(residuals, bits, order, places, { changes, lists }) {
   const mask = 2 ** bits - 1;
   const last = new Int32Array(places);
@@ -117,8 +117,8 @@ function readAxis(residuals, bits, order, places, { changes, lists }) {
   return residuals;
 }
 
-// bits of x and y, and how many frames and residuals there should be. Returns the places of each frame, and x and y of
-// all frames one after the other.
+// bits: of x and y; frames, residuals: the numbers expected. Returns the places in each frame, and x and y of all
+// frames one after the other.
 export function unpackBlock(bytes, bits, frames, residuals) {
   const reader = new BlockReader(bytes);
   if (reader.word() !== frames) throw new Error("their number is another");

@@ -1,5 +1,6 @@
-// All disks of a frame in one call of WebGL2: a square each, of which the shader keeps the disk. Squares of small disks are
-// points, which cost a vertex each; points have a largest size, so those of large disks are instances of four vertices.
+// Draws all disks of a frame in one call of WebGL2: each is a square from which the shader keeps the disk. Squares of
+// small disks are points, which cost one vertex each; points have a largest size, so squares of large disks are
+// instances of four vertices.
 import { parts } from "./colours.js";
 import { offsetAt } from "./shear.js";
 
@@ -102,7 +103,7 @@ class DiskBuffers {
     this.array = this.arrayOf(1);
     this.pointArray = this.arrayOf(0);
   }
-  // Columns that go on with each instance (1) or with each vertex (0).
+  // Columns that advance with each instance (1) or with each vertex (0).
   arrayOf(divisor) {
     const { gl } = this;
     const array = gl.createVertexArray();
@@ -116,7 +117,7 @@ class DiskBuffers {
     });
     return array;
   }
-  // Takes nothing where the card has these data already.
+  // Does nothing if these data are on the card already.
   fill(column, data) {
     if (this.held[column] === data) return;
     this.held[column] = data;
@@ -126,15 +127,16 @@ class DiskBuffers {
 }
 
 export class DiskRenderer {
-  // tell: of the graphics card, a sentence for the page, empty when it is back: what was on it is to be brought again.
+  // tell: gets a sentence about the graphics card for the page; it is empty when the card is back, and then all data
+  // have to be uploaded again.
   constructor(canvas, axes, box, tell) {
     const gl = canvas.getContext("webgl2", { antialias: false, premultipliedAlpha: true, alpha: false });
     if (!gl) throw new Error("This browser has no WebGL2, which draws the disks.");
     Object.assign(this, { gl, canvas, axes, box });
     this.begin();
-    // It is reset, or the browser gives it to other pages.
+    // The graphics card was reset, or the browser has given it to other pages.
     canvas.addEventListener("webglcontextlost", (event) => {
-      event.preventDefault(); // it comes back then, as soon as it can
+      event.preventDefault(); // asks the browser to restore it as soon as it can
       tell("This page has lost the graphics card. Load it again if the disks do not come back.");
     });
     canvas.addEventListener("webglcontextrestored", () => {
@@ -151,8 +153,8 @@ export class DiskRenderer {
     this.largestPoint = Math.min(64, gl.getParameter(gl.ALIASED_POINT_SIZE_RANGE)[1]);
     this.lines = program(gl, lineShader, linePaint);
     this.slots = new Map(); // buffers by frame: the present one, and those of trails
-    // Of disks that reach over a periodic side: images in the row of the box, and from the row above and the one below
-    // of a sheared box, less their displacement.
+    // Images of disks that reach over a periodic side: in the row of the box, and from the rows above and below a
+    // sheared box, without their displacement.
     this.images = [0, 1, -1].map((row) => ({ row, slot: new DiskBuffers(gl) }));
     this.colours = gl.createTexture();
     gl.enable(gl.BLEND);
@@ -169,7 +171,7 @@ export class DiskRenderer {
     for (const name of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, name, gl.CLAMP_TO_EDGE);
   }
 
-  // Brings a frame onto the card; radius and value are by disk of the frame. Keeps at most `keep` frames.
+  // Uploads a frame; radius and value are by disk of the frame. Keeps at most `keep` frames.
   upload(k, frame, steps, radius, value, keep) {
     let slot = this.slots.get(k);
     if (!slot) {
@@ -183,7 +185,7 @@ export class DiskRenderer {
     [frame.x, frame.y, steps.d, radius, value].forEach((data, column) => slot.fill(column, data));
   }
 
-  // The images of disks that reach over a periodic side, as the other side shows them.
+  // Uploads the images that disks reaching over a periodic side have at the other side.
   uploadImages(frame, steps, radius, value) {
     const { axes } = this;
     const sheared = Boolean(this.box.shear);
@@ -204,7 +206,7 @@ export class DiskRenderer {
         const sx = over(frame.x[i], radius[i], 0);
         const sy = over(frame.y[i], radius[i], 1);
         if (sx) add(i, sx, 0);
-        // Displaced, an image may reach over either side.
+        // A displaced image may reach over either side.
         if (sy) for (const turn of sheared ? [-turns[0], 0, turns[0]] : sx ? [0, sx] : [0]) add(i, turn, sy);
       }
     }
@@ -214,8 +216,8 @@ export class DiskRenderer {
     });
   }
 
-  // Buffers are of no frame then, and the next frames get them: those that are let go of stay on the card until the
-  // browser, to which they are a few bytes, collects them.
+  // The buffers then belong to no frame, and are used by the next frames. Surplus ones stay on the card until the
+  // browser collects them; to the browser they are only a few bytes.
   forget() {
     this.slots = new Map([...this.slots.values()].map((slot, n) => [-2 - n, slot]));
   }
@@ -242,7 +244,7 @@ export class DiskRenderer {
     return at;
   }
 
-  // Between periodic sides only what lies in the box is drawn, unless periodic images are asked for.
+  // With periodic sides only the inside of the box is drawn, unless periodic images are wanted.
   clip(look) {
     const { gl, canvas, box } = this;
     const [left, top] = look.camera.toPage(0, box.height);
@@ -253,10 +255,10 @@ export class DiskRenderer {
     const y0 = py ? canvas.height - Math.round(bottom * look.density) : 0;
     const y1 = py ? canvas.height - Math.round(top * look.density) : canvas.height;
     gl.enable(gl.SCISSOR_TEST);
-    gl.scissor(x0, y0, Math.max(1, x1 - x0), Math.max(1, y1 - y0)); // of a box however long, a pixel across
+    gl.scissor(x0, y0, Math.max(1, x1 - x0), Math.max(1, y1 - y0)); // at least a pixel, however long the box is
   }
 
-  // A point is dropped where its centre is out of view, so the view is wider by a point; see use().
+  // A point is dropped if its centre is out of view, so the view is enlarged by the size of a point; see use().
   useDisks(look) {
     this.asPoints =
       2 * (Math.max(look.least, look.largest * look.camera.scale * look.density) + 1) <= this.largestPoint;
@@ -271,9 +273,9 @@ export class DiskRenderer {
     else gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, slot.count);
   }
 
-  // look: camera, density (device pixels a page pixel), largest (radius of all disks), ground, ink, range, bySpeed,
-  // perTime, time, part (of the way to the next frame), images, arrows (times shown ahead, 0: none), trail (frames that
-  // are uploaded, oldest first).
+  // look: camera, density (device pixels in a page pixel), largest (radius of all disks), ground, ink, range, bySpeed,
+  // perTime, time, part (of the way to the next frame), images, arrows (time ahead that they show, 0: none), trail
+  // (uploaded frames, oldest first).
   draw(k, look) {
     const { gl } = this;
     const slot = this.slots.get(k);
@@ -301,7 +303,7 @@ export class DiskRenderer {
     const [xs, ys] = this.axes.map((axis) => (axis.periodic ? [-1, 0, 1] : [0]));
     const offset = offsetAt(box, look.time);
     for (const j of ys) {
-      // Where a row is displaced, one image more fills the gap.
+      // In a displaced row one more image fills the gap.
       const more = Math.sign(j * offset) * -2;
       for (const i of more ? [...xs, more] : xs) {
         if (i === 0 && j === 0) continue;

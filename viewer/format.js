@@ -1,6 +1,6 @@
-// Numbers and elements as the page shows them.
+// Numbers and elements of the page.
 
-// Five digits at most, and no digit that says nothing.
+// At most five digits, without trailing zeros.
 export function shortNumber(value) {
   if (!Number.isFinite(value)) return "–";
   const size = Math.abs(value);
@@ -8,7 +8,7 @@ export function shortNumber(value) {
   return String(Number(value.toPrecision(5)));
 }
 
-// 1, 2 or 5 times a power of ten, at most `value`.
+// The largest number of the form 1, 2 or 5 times a power of ten that is at most `value`.
 export function roundBelow(value) {
   const power = 10 ** Math.floor(Math.log10(value));
   const lead = value / power;
@@ -26,7 +26,7 @@ export const counted = (n, what) => `${n} ${what}${n === 1 ? "" : "s"}`;
 
 export const element = (id) => document.getElementById(id);
 
-// Text never becomes markup: names come from the scene.
+// Text never becomes markup, as names come from the scene.
 export function make(tag, text, attributes = {}) {
   const made = document.createElement(tag);
   if (text !== undefined) made.textContent = text;

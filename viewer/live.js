@@ -1,6 +1,6 @@
-// What the page of a run that goes on has besides (carom view --live): it asks its server for blocks and for news.
+// Additions for the page of a run that is going on (carom view --live): it asks its server for blocks and news.
 window.caromLive = {
-  texts: new Map(), // of blocks, by id: what has come stays when the server is gone
+  texts: new Map(), // of blocks, by id: they are kept when the server is gone
 
   textOf(id) {
     if (id.startsWith("block") && !this.texts.has(id))
@@ -81,10 +81,10 @@ window.caromLive = {
     const { options } = document.getElementById("colour");
     if (head.grouped && ![...options].some(({ value }) => value === "group"))
       options.add(new window.Option("group"), 1);
-    if (viewer.colour === "group") viewer.range = null; // so that the list of groups is made anew
+    if (viewer.colour === "group") viewer.range = null; // so that the list of groups is made again
   },
 
-  // A page at its last frame goes on to what came, unless it is being played.
+  // Adds new frames. A page at its last frame goes on to the new ones, unless it is being played.
   addFrames(viewer, times) {
     const { head, store, playback } = viewer;
     const last = playback.last;
@@ -93,7 +93,7 @@ window.caromLive = {
     head.frames = store.times.length;
     playback.setTimes(store.times);
     document.getElementById("frame").max = playback.last;
-    // The last frame had the step before it.
+    // So far the last frame had the steps of the one before it.
     viewer.renderer.forget();
     viewer.drawn = -1;
     if (follows) viewer.jump(playback.last);

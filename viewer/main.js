@@ -1,9 +1,9 @@
-// Reads the data of the page and shows them, or says why not.
+// Reads the data of the page and shows them, or says why that is impossible.
 import { counted, element } from "./format.js";
 import { Store } from "./store.js";
 import { Viewer } from "./viewer.js";
 
-// What the page plays, in the line beside its title.
+// Describes the run in the line beside its title.
 function tellStory({ disks, frames, version }) {
   element("story").textContent = `${counted(disks, "disk")}, ${counted(frames, "frame")}, carom ${version}`;
 }

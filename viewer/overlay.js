@@ -1,4 +1,4 @@
-// What is drawn over the disks: the sides of the box, sources, the picked disk and its path, the scale bar, the time.
+// The drawings over the disks: the sides of the box, sources, the picked disk and its path, the scale bar, the time.
 import { counted, roundBelow, shortNumber } from "./format.js";
 
 const sideNames = ["left", "right", "bottom", "top"];
@@ -27,7 +27,7 @@ export function sideSentence({ box, insets, sources, obstacles, walls }) {
   return `Sides: ${words.join(", ")}. Drawn: ${keys.flatMap(([there, text]) => (there ? [text] : [])).join(", ")}.`;
 }
 
-// Until restore() nothing is drawn outside of the box.
+// Until restore() nothing is drawn outside the box.
 function clipToBox(context, camera, { width, height }) {
   context.save();
   context.beginPath();
@@ -35,7 +35,7 @@ function clipToBox(context, camera, { width, height }) {
   context.clip();
 }
 
-// What of the obstacles lies in the box, as movies have it; those that reach over a periodic side twice.
+// Draws the obstacles inside the box, as in movies; those that reach over a periodic side are drawn twice.
 function drawObstacles(context, camera, { box, axes, obstacles }, colours) {
   clipToBox(context, camera, box);
   context.fillStyle = colours.faint;
@@ -56,7 +56,7 @@ function drawObstacles(context, camera, { box, axes, obstacles }, colours) {
 
 function drawWall(context, camera, [x0, y0, x1, y1], kind, colour) {
   context.strokeStyle = colour;
-  // Half a side's line covers disks: in a thin box it is thinner.
+  // Half of a side's line covers disks, so it is thinner in a thin box.
   const thin = camera.scale * Math.min(camera.box.width, camera.box.height);
   context.lineWidth = Math.min(kind === "wall" ? 3 : 1.5, thin / 8);
   context.setLineDash(kind === "periodic" ? [8, 6] : kind === "sink" ? [2, 5] : []);
@@ -66,7 +66,7 @@ function drawWall(context, camera, [x0, y0, x1, y1], kind, colour) {
   context.stroke();
 }
 
-// An inner wall that has moved by shift, and its images across periodic sides; what lies in the box of them.
+// Draws an inner wall displaced by shift, and its images across periodic sides, as far as they are inside the box.
 function drawMovingWall(context, camera, { box, axes }, [x0, y0, x1, y1], shift, ...look) {
   const turns = (k, at, size) => {
     const turn = axes[k].periodic ? Math.floor((at + shift[k]) / size) : 0;
@@ -89,7 +89,7 @@ function drawSides(context, camera, head, frame, colours) {
   }
   for (const wall of head.walls) {
     const shift = head.shifts[wall[5]]?.[frame];
-    // A sink along a side or another wall is an opening in that.
+    // A sink along a side or another wall is an opening in it.
     const draw = (...look) =>
       shift ? drawMovingWall(context, camera, head, wall, shift, ...look) : drawWall(context, camera, wall, ...look);
     if (wall[4]) draw("wall", colours.ground);
@@ -123,7 +123,7 @@ function drawScaleBar(context, camera, colours) {
   context.fillText(shortNumber(length), 18 + pixels, y);
 }
 
-// path: points in lengths, null where it is not known; a step of more than half the box crosses a periodic side.
+// path: points in lengths, null where it is unknown; a step of more than half the box crosses a periodic side.
 function drawPath(context, camera, { box, axes }, path, colours) {
   context.strokeStyle = colours.accent;
   context.lineWidth = 1.5;
@@ -140,7 +140,7 @@ function drawPath(context, camera, { box, axes }, path, colours) {
   context.stroke();
 }
 
-// frame: its number. picked: as DiskPath.mark has it, or null.
+// frame: its number. picked: as returned by DiskPath.mark, or null.
 export function drawOverlay(canvas, density, camera, head, frame, time, picked, colours) {
   const context = canvas.getContext("2d");
   context.setTransform(density, 0, 0, density, 0, 0);

@@ -1,4 +1,4 @@
-// The panel beside the picture: the legend of the colours, what is known of the picked disk, the link and the picture.
+// The panel beside the picture: the legend of the colours, the facts of the picked disk, the link and the picture.
 import { colourNames, cssColour, groupColours, palette } from "./colours.js";
 import { element, make, shortNumber } from "./format.js";
 
@@ -11,7 +11,7 @@ export function colourChoices({ grouped }) {
   return Object.entries(colourNames).filter(([name]) => name !== "group" || grouped);
 }
 
-// The scale, or a list of the groups that the table has.
+// Shows the scale, or a list of the groups in the table.
 export function showLegend(name, range, store) {
   const list = element("groups");
   list.replaceChildren();
@@ -42,7 +42,7 @@ export function showFacts(facts) {
   list.replaceChildren(...facts.flatMap(([name, text]) => [make("dt", name), make("dd", text)]));
 }
 
-// i: the disk's index in frame k, -1 if it is not there.
+// i: the disk's index in frame k, or -1 if the disk is not in it.
 export function factsOf(store, k, place, i) {
   const facts = [
     ["mass", shortNumber(store.mass[place])],

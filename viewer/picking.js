@@ -1,13 +1,13 @@
-// The disk that is picked: found by a point or by its id, and its path so far.
+// The picked disk, found by a point or by its id, and its path so far.
 
-// Where disk i of a frame is drawn, in lengths: a part of its step to the next frame ahead of its place.
+// The place at which disk i of a frame is drawn, in lengths: moved ahead by a part of its step to the next frame.
 function placeOf({ head: { axes } }, frame, i, steps, part) {
   const ahead = (n) => (part > 0 ? part * steps[2 * i + n] : 0);
   return [frame.x[i] * axes[0].quantum + ahead(0), frame.y[i] * axes[1].quantum + ahead(1)];
 }
 
-// The index of the disk of the present frame that is drawn over a point, -1 if there is none; the nearest centre counts,
-// by the nearest image. steps: of the frame. slack: length by which a point may miss a small disk.
+// The index of the disk of the present frame that is drawn at a point, or -1; of several disks the one with the nearest
+// centre, by the nearest image. steps: of the frame. slack: length by which a point may miss a small disk.
 export function diskAt(store, { frame: k, part }, steps, [x, y], slack) {
   const { axes, box } = store.head;
   const frame = store.frame(k);
@@ -31,7 +31,7 @@ export function diskAt(store, { frame: k, part }, steps, [x, y], slack) {
   return found;
 }
 
-// Gathers the path block by block; null where the disk is not there.
+// Collects the path block by block; null where the disk does not exist.
 export class DiskPath {
   constructor(store, place) {
     this.store = store;
@@ -49,14 +49,14 @@ export class DiskPath {
       this.points[this.store.blocks[number].first + n] = [frame.x[i] * axes[0].quantum, frame.y[i] * axes[1].quantum];
     });
   }
-  // What is drawn of the disk over the present frame: its radius, its path, and its place where it is there.
+  // The disk as drawn over the present frame: its radius, its path, and its place if it is in the frame.
   mark(frame, playback, steps) {
     const i = this.store.indexIn(frame, this.place);
     const place = i < 0 ? null : placeOf(this.store, frame, i, steps, playback.part);
     const path = [...this.points.slice(0, playback.frame + 1), place];
     return { radius: this.store.radius[this.place], place, path };
   }
-  // Unpacks what is still needed up to frame k, and calls changed as it comes; stops when wanted() is no longer true.
+  // Unpacks the blocks still needed up to frame k, and calls changed after each; stops when wanted() is no longer true.
   async gather(k, wanted, changed) {
     for (let number = this.store.blockOf(k); number >= 0 && wanted(); --number) {
       if (this.known.has(number)) continue;

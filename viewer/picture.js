@@ -1,6 +1,6 @@
 // Pictures of the page, as files.
 
-// The canvases one over the other, as a PNG.
+// The canvases on top of each other, as a PNG.
 export function pictureOf(...layers) {
   const all = document.createElement("canvas");
   all.width = layers[0].width;

@@ -1,6 +1,6 @@
-// Which moment is shown, and how it goes on.
+// The moment shown, and how it advances.
 export class Playback {
-  // smooth: is a moment between two frames shown as such? Otherwise the frame before it is.
+  // smooth: may moments between two frames be shown? Otherwise the frame before is shown.
   constructor(times, smooth) {
     this.smooth = smooth;
     this.frame = 0;
@@ -13,13 +13,13 @@ export class Playback {
   setTimes(times) {
     this.times = times;
     const span = times[times.length - 1] - times[0];
-    // Twenty frames a second, but the run takes three seconds at least.
+    // Twenty frames per second, but at least three seconds for the whole run.
     this.rate = span > 0 ? span / Math.max(3, (times.length - 1) / 20) : 1;
   }
   get last() {
     return this.times.length - 1;
   }
-  // The last frame at or before a time; its number.
+  // The number of the last frame at or before a time.
   frameAt(time) {
     let low = 0;
     let high = this.last;
@@ -38,13 +38,13 @@ export class Playback {
     this.time = Math.max(this.times[0], Math.min(this.times[this.last], time));
     this.frame = this.frameAt(this.time);
   }
-  // To the moment of a link. Links were written with eight digits once, which may be a little before their frame.
+  // Goes to the moment of a link. Older links had eight digits, so their times may be a little before the frame.
   goToLink(time) {
     this.goToTime(time);
     const next = this.times[this.frame + 1];
     if (this.times[this.frame] !== time && Number(next?.toPrecision(8)) === time) this.goTo(this.frame + 1);
   }
-  // Goes on by seconds of the clock on the wall; at the end begins anew or stops.
+  // Advances by seconds of real time; at the end it starts again or stops.
   advance(seconds) {
     const next = this.time + seconds * this.rate * this.speed;
     if (next < this.times[this.last] || this.last === 0) this.goToTime(next);
@@ -58,7 +58,7 @@ export class Playback {
   get shownTime() {
     return this.smooth() ? this.time : this.times[this.frame];
   }
-  // How far what is shown is on the way to the next frame, 0 to 1.
+  // The part of the way to the next frame at which the moment shown is, 0 to 1.
   get part() {
     if (!this.smooth()) return 0;
     const from = this.times[this.frame];

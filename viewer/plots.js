@@ -1,4 +1,4 @@
-// Columns of series.csv and curves of analysis.h5, one below the other; those in time under the cursor of the present
+// Columns of series.csv and curves of analysis.h5, one below the other; those over time have a cursor at the present
 // moment.
 import { element, make, shortNumber } from "./format.js";
 
@@ -25,7 +25,7 @@ export class Plots {
     names.slice(1).forEach((name, n) => this.add({ name, x: columns[0], y: columns[n + 1], inTime: true }));
   }
 
-  // Adds a curve, or renews the one of that name.
+  // Adds a curve, or replaces that of the same name.
   add(curve) {
     if (curve.x.length < 2) return;
     const old = this.curves.find(({ name }) => name === curve.name);
@@ -36,7 +36,7 @@ export class Plots {
     element("plots").hidden = false;
     this.curves.push(curve);
     const box = make("input", undefined, { type: "checkbox" });
-    // Where velocities mean nothing, collisions are what there is.
+    // If velocities have no meaning, collisions are the only curve to show.
     box.checked = shownFirst.includes(curve.name) || (curve.name === "collisions" && !this.shown.size);
     const show = () => this.shown[box.checked ? "add" : "delete"](curve);
     show();

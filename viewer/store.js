@@ -1,11 +1,11 @@
-// The run as the page holds it: the head, the table of disks, and those blocks of frames that were unpacked last.
+// The run as the page holds it: the head, the table of disks, and the blocks of frames that were unpacked last.
 import { element } from "./format.js";
 import { offsetAt } from "./shear.js";
 
-const mostBytes = 320e6; // of unpacked blocks
+const mostBytes = 320e6; // for unpacked blocks
 
-// The text of a data block, null where the file breaks off before it. The page of a run that goes on asks for it
-// (live.js).
+// The text of a data block, or null if the file breaks off before it. The page of a run that is going on asks its
+// server for it (live.js).
 const textOf = (id) => element(id)?.textContent ?? window.caromLive?.textOf(id) ?? null;
 
 export class Store {
@@ -15,7 +15,7 @@ export class Store {
     this.addBlocks(head.blocks);
     this.unpacked = new Map(); // by number of the block, the one used last at the end
     this.asked = new Map();
-    this.damaged = new Map(); // what is wrong with it
+    this.damaged = new Map(); // errors of damaged blocks
     this.bytes = 0;
     this.jobs = new Map();
     this.url = URL.createObjectURL(new Blob([textOf("worker")], { type: "text/javascript" }));
@@ -42,7 +42,7 @@ export class Store {
     });
   }
 
-  // Times of frames; radius, mass, id and group by place. Throws where the table is damaged.
+  // The times of frames; radius, mass, id and group by place. Throws if the table is damaged.
   async readTable() {
     const { head } = this;
     const { bytes } = await this.work({ text: textOf("table"), length: head.table.bytes, check: head.table.check });
@@ -61,7 +61,7 @@ export class Store {
     this.largest = this.radius.reduce((a, b) => Math.max(a, b), 0);
   }
 
-  // The number of the block that has frame k.
+  // The number of the block that contains frame k.
   blockOf(k) {
     let low = 0;
     let high = this.blocks.length - 1;
@@ -78,7 +78,7 @@ export class Store {
     return frames === 1 ? `frame ${first + 1} is` : `frames ${first + 1} to ${first + frames} are`;
   }
 
-  // The first block that the file lacks, wholly or in part, as a sentence; empty if it is whole.
+  // A sentence about the first block that is missing in the file, wholly or in part; empty if the file is whole.
   missing() {
     if (window.caromLive) return "";
     for (let b = 0; b < this.blocks.length; ++b) {
@@ -90,7 +90,7 @@ export class Store {
     return element("end") ? "" : "This file is incomplete.";
   }
 
-  // Unpacks a block unless it is there. Rejects, with a sentence, where it is damaged.
+  // Unpacks a block unless that was done. Rejects with a sentence if it is damaged.
   load(number) {
     if (this.unpacked.has(number)) {
       const block = this.unpacked.get(number);
@@ -136,14 +136,14 @@ export class Store {
     return made;
   }
 
-  // Frame k where it is unpacked, else null.
+  // Frame k if it is unpacked, otherwise null.
   frame(k) {
     if (k < 0 || k >= this.head.frames) return null;
     const b = this.blockOf(k);
     return this.unpacked.get(b)?.frames[k - this.blocks[b].first] ?? null;
   }
 
-  // Where in a frame the disk at this place of the table is, -1 if it is not there.
+  // The index in a frame of the disk at this place of the table, or -1 if it is not in the frame.
   indexIn(frame, place) {
     let low = 0;
     let high = frame.place.length - 1;
@@ -156,13 +156,13 @@ export class Store {
     return -1;
   }
 
-  // Displacement of the images above a sheared box in frame k.
+  // The displacement of the images above a sheared box in frame k.
   offset(k) {
     return offsetAt(this.head.box, this.times[k]);
   }
 
-  // How far disk i of frame a went to where disk j of frame b is, along an axis; in length, nearest image. offset: of
-  // the images above in frame b.
+  // The displacement from disk i of frame a to disk j of frame b along an axis, by the nearest image; in lengths.
+  // offset: of the images above in frame b.
   step(axis, a, i, b, j, offset) {
     const { bits, periodic, quantum } = this.head.axes[axis];
     let d = axis === 0 ? b.x[j] - a.x[i] : b.y[j] - a.y[i];
@@ -176,9 +176,10 @@ export class Store {
     return d * quantum;
   }
 
-  // The displacement of each disk of frame k to the next frame, x and y in turn; the mean velocity on the way is that
-  // over `over`. The last frame, and disks that are gone by the next (indices in `gone`), have the velocity of the step
-  // before. In a sheared box it is that of the image whose disk is in frame k: the velocity that the disk has there.
+  // The displacement of each disk of frame k to the next frame, x and y in turn; divided by the time `over` it is the
+  // mean velocity. In the last frame, and for disks that are gone in the next one (indices in `gone`), it is that of
+  // the step before. In a sheared box it is the displacement of the image whose disk is in frame k, which has the
+  // velocity of the disk there.
   steps(k) {
     const frame = this.frame(k);
     const next = this.frame(k + 1);

@@ -1,4 +1,4 @@
-// The page as a whole: draws the present moment, and does what the controls ask for.
+// The whole page: draws the present moment, and does what the controls ask for.
 import { Camera } from "./camera.js";
 import { fixedValues, palette, rangeOf } from "./colours.js";
 import { listenToControls, speeds } from "./controls.js";
@@ -11,8 +11,8 @@ import { pictureOf, saveAs } from "./picture.js";
 import { Playback } from "./playback.js";
 import { Plots } from "./plots.js";
 
-const mostTrail = 24; // frames
-const manyDisks = 5000; // of fewer, each is drawn 1.6 pixels in radius or more, as in movies
+const mostTrail = 24; // number of frames in a trail
+const manyDisks = 5000; // with fewer disks each is drawn with a radius of at least 1.6 pixels, as in movies
 
 export class Viewer {
   constructor(store) {
@@ -27,9 +27,9 @@ export class Viewer {
     });
     this.plots = new Plots(this.head, (time) => this.jumpToTime(time));
     this.colour = this.head.colour === "group" && !this.head.grouped ? "speed" : this.head.colour;
-    this.range = null; // once a block is unpacked
+    this.range = null; // known once a block is unpacked
     this.picked = null; // { place, path }
-    this.drawn = -1; // the frame on the card
+    this.drawn = -1; // the frame on the graphics card
     this.counts = new Map(); // coordination numbers by frame
     this.dirty = true;
     this.lastTick = 0;
@@ -97,8 +97,8 @@ export class Viewer {
     requestAnimationFrame((next) => this.tick(next));
   }
 
-  // Are the blocks there that frame k needs (its own, and that of the next frame)? Asks for those that are not, and for
-  // the one to come. A damaged block counts as there: the page says so and goes on behind it.
+  // Are the blocks of frame k (its own, and that of the next frame) unpacked? Asks for those that are missing, and for
+  // the next one. A damaged block counts as unpacked: the page reports it and goes on after it.
   ready(k) {
     const { store } = this;
     const own = store.blockOf(k);
@@ -142,7 +142,7 @@ export class Viewer {
     return radius;
   }
 
-  // Radius and value by disk; the same arrays for frames with the same disks, where nothing changes them.
+  // Radius and value by disk; frames with the same disks share the arrays if these do not change.
   columnsOf(k, frame) {
     const { known, colour } = this;
     if (known?.place === frame.place && known.colour === colour && colour !== "coordination") return known;
@@ -184,7 +184,7 @@ export class Viewer {
       this.perTime = 1 / steps.over;
       this.ahead = steps.d;
     }
-    // For the shaders: no trail leads on from where a disk has gone.
+    // For the shaders: no trail leads on from the place where a disk disappears.
     const marked = steps.gone.length ? radius.slice() : radius;
     for (const i of steps.gone) marked[i] = -marked[i];
     this.renderer.upload(k, frame, steps, marked, value, keep);
@@ -239,7 +239,7 @@ export class Viewer {
       part: this.playback.part,
       time: this.playback.shownTime,
       images: element("images").checked,
-      // An arrow of the fastest speed of the scale is a fifteenth of the box long.
+      // An arrow for the fastest speed of the scale is as long as a fifteenth of the box.
       arrows: element("arrows").checked
         ? Math.max(this.head.box.width, this.head.box.height) / 15 / this.arrowSpeed
         : 0,
@@ -329,7 +329,7 @@ export class Viewer {
     this.pick(this.store.id.indexOf(id), id);
   }
 
-  // place: in the table, -1 for none; id: what was asked for, if it is not in the table.
+  // place: in the table, -1 for none; id: the id asked for, if it is not in the table.
   pick(place, id) {
     this.dirty = true;
     if (place < 0) {
@@ -355,10 +355,10 @@ export class Viewer {
     showFacts(factsOf(this.store, k, place, this.store.indexIn(frame, place)));
   }
 
-  // #t=12.5&disk=7
+  // For example #t=12.5&disk=7
   followHash() {
     const asked = new URLSearchParams(location.hash.slice(1));
-    const time = Number.parseFloat(asked.get("t")?.replace(" ", "+")); // 1e+21: a + is read as a space
+    const time = Number.parseFloat(asked.get("t")?.replace(" ", "+")); // in 1e+21 the + would be read as a space
     if (Number.isFinite(time)) this.playback.goToLink(time);
     this.dirty = true;
     const id = Number.parseInt(asked.get("disk"), 10);
@@ -384,7 +384,7 @@ export class Viewer {
     element("taken").textContent = `${name} is saved.`;
   }
 
-  // For scripts: where each disk of a frame is, as the page draws it.
+  // For scripts: the positions of the disks of a frame, as the page draws them.
   async positions(k) {
     await this.store.load(this.store.blockOf(k));
     const { place, x, y } = this.store.frame(k);

@@ -1,8 +1,8 @@
-// Beside the page: unpacks blocks and counts neighbours, so that the page never waits.
+// Works beside the page: unpacks blocks and counts neighbours, so that the page never waits.
 import { unpackBlock, unpackText } from "./decode.js";
 
-// How many disks lie within 1.1 contact distances of each; on periodic axes by the nearest image.
-// offset: displacement of the images above, in a sheared box.
+// The number of disks within 1.1 contact distances of each disk; on periodic axes by the nearest image. offset:
+// displacement of the images above, in a sheared box.
 function coordination({ x, y, radius, quantum, size, periodic, offset }) {
   const n = x.length;
   const reach = 1.1;
@@ -19,12 +19,13 @@ function coordination({ x, y, radius, quantum, size, periodic, offset }) {
   const members = new Uint32Array(n);
   for (let i = 0; i < n; ++i) members[filled[cell[i]]++] = i;
   const count = new Float32Array(n);
-  // The cells beside c on one axis, each once.
+  // The cells next to c along one axis, each of them once.
   const beside = (c, axis) => {
     const found = [c - 1, c, c + 1].map((b) => (periodic[axis] ? (b + cells[axis]) % cells[axis] : b));
     return [...new Set(found)].filter((b) => b >= 0 && b < cells[axis]);
   };
-  // The columns beside disk i in a row; across the bottom or the top of a sheared box those of its displaced image.
+  // The columns next to disk i in a row; across the bottom or the top of a sheared box those next to its displaced
+  // image.
   const columnsBeside = (i, row) => {
     const own = Math.floor(cell[i] / cells[0]);
     if (offset && cells[1] < 3) return [...Array(cells[0]).keys()]; // a row may be on both sides
