@@ -1,4 +1,4 @@
-// What the page of carom view draws and where, in a real browser.
+// The drawing of the page of carom view, tested in a real browser.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { coloursAt, drawn, restScene, Workshop } from "./view_support.mjs";
@@ -21,7 +21,7 @@ test("pixels are coloured where disks are, on both edges of a periodic side, and
     [16, 4.6],
     [0.6, 6],
     [19.6, 6],
-  ]; // the last one: disk 3, across the side
+  ]; // the last one is disk 3, across the side
   for (const colour of await coloursAt(page, places)) assert.deepEqual(colour, blue);
   const ground = await page.evaluate(() => window.carom.colours.ground);
   const empty = ground.match(/\w\w/g).map((hex) => parseInt(hex, 16));
@@ -279,7 +279,7 @@ test("boxes of any size that a scene may have fill the page, and speeds have the
       [5, 3],
       [0.6, 6],
       [8, 6],
-    ]; // at rest, fast, nothing
+    ]; // at rest, fast, background
     colours.push(
       await coloursAt(
         page,
@@ -325,7 +325,7 @@ test("in a shear flow speeds are those of the disks, also where they cross the t
   );
   shop.run("shear", scene);
   const { page } = await shop.show(shop.view("shear").file);
-  // Both cross in the last step, which the last frame has from behind.
+  // Both disks cross in the last step, whose displacement the last frame shows, too.
   const { velocities, fast, range } = await page.evaluate(() => {
     const { store, head } = window.carom;
     const speeds = [];
@@ -349,7 +349,7 @@ test("in a shear flow images across the top and the bottom are displaced, and ar
   await drawn(page, 20);
   const blue = [0, 0x72, 0xb2];
   const ground = await page.evaluate(() => window.carom.colours.ground.match(/\w\w/g).map((hex) => parseInt(hex, 16)));
-  // It has gone to 11.9; the images below are displaced by -4.
+  // The disk is at 11.9; the images below are displaced by -4.
   const colours = await coloursAt(page, [
     [11.9, 19.5],
     [7.9, 0.2],

@@ -1,4 +1,4 @@
-// How viewer/*.js and these tests are linted (stage browser of .ci/run), from the folder of the project.
+// The rules by which viewer/*.js and these tests are linted (stage browser of .ci/run), from the folder of the project.
 import js from "@eslint/js";
 
 const browser = [
@@ -54,7 +54,7 @@ const rules = {
   "prefer-const": "error",
   "prefer-template": "off",
   "require-atomic-updates": "off",
-  // Markup that comes from a scene would run in the page.
+  // Markup from a scene would be executed in the page.
   "no-restricted-properties": [
     "error",
     ...["innerHTML", "outerHTML", "insertAdjacentHTML", "write"].map((property) => ({ property })),

@@ -1,4 +1,4 @@
-// A run that goes on, as carom view --live shows it.
+// A run that is going on, as shown by carom view --live.
 import assert from "node:assert/strict";
 import { existsSync } from "node:fs";
 import { writeFileSync } from "node:fs";
@@ -48,14 +48,14 @@ test("a run that goes on is followed to its end, and what has come stays", async
   const frames = () => page.evaluate(() => window.carom.head.frames);
   const begun = await frames();
   await page.waitForFunction((n) => window.carom.head.frames > n + 5, begun);
-  // It follows the run, and stays where it is told to.
+  // The page follows the run, or stays where the user puts it.
   const [at, last] = await page.evaluate(() => [window.carom.playback.frame + 1, window.carom.head.frames]);
   assert.equal(at, last);
   await page.keyboard.press("Home");
   await page.waitForFunction((n) => window.carom.head.frames > n, await frames());
   assert.equal(await page.evaluate(() => window.carom.playback.frame), 0);
   assert.equal(await page.textContent("#left-out"), "The run goes on.");
-  // Disks of another group have come, larger than a point can be.
+  // Disks of another group have come, larger than points can be.
   await page.waitForFunction(() => window.carom.head.grouped);
   assert.deepEqual(await page.evaluate(() => [...new Set(window.carom.store.group)]), [0, 1]);
   await page.selectOption("#colour", "group");
@@ -65,7 +65,7 @@ test("a run that goes on is followed to its end, and what has come stays", async
   assert.equal(await run.ended, 4);
   await page.waitForFunction(() => document.getElementById("left-out").textContent.startsWith("The run has stopped."));
   assert.equal(await server.ended, 0);
-  // The server is gone; every frame is here, as the trajectory has it.
+  // The server is gone; the page has every frame of the trajectory.
   const known = framesOf(unfinished);
   assert.equal(await frames(), known.length);
   const shown = await page.evaluate(async () => {

@@ -1,4 +1,4 @@
-// Boxes that are a few pixels high on the page of carom view, or less.
+// Boxes a few pixels high, or less, on the page of carom view.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { coloursAt, drawn, Workshop } from "./view_support.mjs";
@@ -7,7 +7,7 @@ const shop = new Workshop();
 before(() => shop.open());
 after(() => shop.close());
 
-// Two disks halfway up.
+// Two disks at half height.
 const thinScene = (width, radius, sides) => `[box]
 width = ${width}
 height = 1.0
@@ -34,7 +34,7 @@ async function show(name, scene) {
 
 test("a periodic box so long that it is thinner than a pixel shows its disks", async () => {
   const page = await show("periodic", thinScene(4000, 0.25, 'bottom = "periodic"\ntop = "periodic"'));
-  const around = [-2, -1, 0, 1, 2].map((n) => [1000, 0.5 + 2 * n]); // some pixels up and down
+  const around = [-2, -1, 0, 1, 2].map((n) => [1000, 0.5 + 2 * n]); // some pixels above and below
   const colours = await coloursAt(page, around);
   assert.ok(
     colours.some((colour) => colour[2] - colour[0] > 20),
@@ -53,7 +53,7 @@ test("the sides of a thin box do not cover its disks", async () => {
   ];
   for (const colour of await coloursAt(page, disks)) {
     const off = [0, 0x72, 0xb2].map((part, k) => Math.abs(part - colour[k]));
-    assert.ok(Math.max(...off) < 20, `${colour}`); // the edge of a line may tint it
+    assert.ok(Math.max(...off) < 20, `${colour}`); // the edge of a line may colour it slightly
   }
   await page.close();
 });

@@ -1,4 +1,4 @@
-// The page that carom view makes, in a real browser.
+// The page made by carom view, in a real browser.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { readFileSync, statSync, writeFileSync } from "node:fs";
@@ -43,7 +43,7 @@ trajectory = "xyz"
 series = true
 `;
 
-let open; // the run of openScene
+let open; // the run used by openScene
 let openPage;
 before(() => {
   open = shop.run("open", openScene);
@@ -244,7 +244,7 @@ test("a link leads to its moment and its disk", async () => {
 });
 
 test("a link leads to its own frame, whatever the digits of its time, and so do links of eight digits", async () => {
-  // 1234567.1234567 times k: eight digits are nearer to 0 for some k and further from it for others.
+  // Frame times are 1234567.1234567 times k: rounding to eight digits makes some smaller and others larger.
   shop.run(
     "digits",
     restScene().replace("t_end = 2.0", "t_end = 2e7").replace("every = 0.5", "every = 1234567.1234567"),
@@ -291,7 +291,7 @@ test("title and group names of a hostile scene run no script", async () => {
   assert.equal(await page.textContent("#title"), hostile);
   assert.equal(await page.title(), hostile);
   assert.equal(await page.locator("img").count(), 0);
-  // And if markup came in by another way, the policy would stop it.
+  // If markup came in by another way, the policy would still stop it.
   await page.evaluate(() => {
     const script = document.createElement("script");
     script.textContent = "window.hurt = 3";

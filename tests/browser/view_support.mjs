@@ -1,4 +1,4 @@
-// What the tests of the page share: runs made by the program, and pages in Debian's Chromium with software rendering.
+// Shared by the tests of the page: runs made by the program, and pages in Debian's Chromium with software rendering.
 import { execFileSync, spawn, spawnSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -7,7 +7,7 @@ import { chromium } from "playwright-core";
 
 const program = process.env.CAROM;
 
-// A folder of its own for a test file, with the runs in it.
+// A separate folder for a test file, with its runs.
 export class Workshop {
   constructor() {
     this.folder = mkdtempSync(join(tmpdir(), "carom-browser-"));
@@ -25,13 +25,13 @@ export class Workshop {
   path(name) {
     return join(this.folder, name);
   }
-  // Runs a scene; returns the run's folder.
+  // Runs a scene; returns the folder of the run.
   run(name, scene) {
     writeFileSync(this.path(`${name}.toml`), scene);
     execFileSync(program, ["run", `${name}.toml`, "-o", name, "--quiet", "--force"], { cwd: this.folder });
     return this.path(name);
   }
-  // carom view; returns what it printed and the file.
+  // Calls carom view; returns its output and the file.
   view(name, ...options) {
     const file = `${name}_${options.join("_").replace(/[^a-z0-9]/gi, "")}.html`;
     const done = spawnSync(program, ["view", name, "-o", file, "--force", ...options], {
@@ -41,14 +41,14 @@ export class Workshop {
     if (done.status !== 0) throw new Error(done.stderr);
     return { file: this.path(file), err: done.stderr };
   }
-  // Starts carom in the background; resolves with its process and the first line that it prints, where it prints one.
+  // Starts carom in the background; resolves with its process and the first line of its output, if there is one.
   async start(...words) {
     const child = spawn(program, words, { cwd: this.folder, stdio: ["ignore", "pipe", "inherit"] });
     const ended = new Promise((done) => child.on("exit", (status) => done(status)));
     const line = new Promise((done) => child.stdout.once("data", (data) => done(String(data).split("\n")[0])));
     return { child, ended, line };
   }
-  // Opens a page file and waits until it shows a frame, or says why not. Returns what it asked the network for, too.
+  // Opens a page file and waits until it shows a frame or an error. Returns its requests to the network, too.
   async show(file, hash = "") {
     const page = await this.browser.newPage({ viewport: { width: 1000, height: 700 } });
     const requests = [];
@@ -62,7 +62,7 @@ export class Workshop {
   }
 }
 
-// Frames of the trajectory.xyz of a folder, but for one that is not whole: time and, by id, x, y, radius, mass.
+// The frames in trajectory.xyz of a folder, without an incomplete one: time and, by id, x, y, radius, mass.
 export function framesOf(folder) {
   const lines = readFileSync(join(folder, "trajectory.xyz"), "utf8").trimEnd().split("\n");
   const frames = [];
@@ -81,7 +81,7 @@ export function framesOf(folder) {
   return frames;
 }
 
-// The colours of points of the present picture, given in lengths of the box: [red, green, blue] each.
+// The colours of points of the present picture, given in lengths of the box: [red, green, blue] for each.
 export function coloursAt(page, points) {
   return page.evaluate(async (wanted) => {
     const viewer = window.carom;
