@@ -1,8 +1,8 @@
-// The scenes whose instructions and cache misses are counted (bench/counts.sh): started in a state made beforehand and
-// run for two lengths, so that the difference of the two counts is of the steady part alone.
-//   carom_counts scenes [features]            a line each: name, disks, what the work is counted in
-//   carom_counts compiler                     that built it: counts of another are other counts
-//   carom_counts prepare SCENE FILE           writes the state it starts from, a checkpoint
+// The scenes whose instructions and cache misses are counted (bench/counts.sh). They start from a state made beforehand
+// and are run for two lengths, so that the difference of the two counts is that of the steady part alone.
+//   carom_counts scenes [features]            a line for each: name, disks, unit of work for the counts
+//   carom_counts compiler                     the compiler of this program: other compilers give other counts
+//   carom_counts prepare SCENE FILE           writes the state from which the scene starts, a checkpoint
 //   carom_counts run SCENE FILE short|long    runs it on one thread and prints the work done
 #include <fmt/format.h>
 
@@ -34,17 +34,17 @@ namespace {
 struct Counted {
   std::string name;
   std::size_t disks;
-  const char* work;  // that counts are divided by
-  int short_run;     // steps, or windows of exact; enough for queues and lists to take their shape
+  const char* work;  // the unit of work by which counts are divided
+  int short_run;     // steps, or windows of exact; enough for queues and lists to reach their usual size
   int long_run;
   std::function<Start()> make;
-  std::size_t block_divisor = 1;  // more: work is cut into smaller parts
-  std::string quantity{};         // of [analysis]: taken so many times of the start, and nothing runs
-  int ranks = 1;                  // that share it, threads of this process
+  std::size_t block_divisor = 1;  // above 1: work is cut into smaller blocks
+  std::string quantity{};         // of [analysis]: measured this many times in the start, without a run
+  int ranks = 1;                  // that share the scene; threads of this process
 };
 
-// One thread has one queue, but two parts with halos where work is cut in two.
-// Sorted into cells in one step of two dozen: the long runs of pairwise are several sorts longer than the short ones.
+// One thread uses one queue, or two parts with halos if work is cut in two. Disks are sorted into cells in about one
+// step of two dozen, so the long runs of pairwise have several sorts more than the short ones.
 const std::vector<Counted>& all_counted() {
   static const std::vector<Counted> all{
       {"exact_0.7", 10'000, "collision", 2, 10, [] { return exact_gas(10'000, 0.7); }},
@@ -93,7 +93,7 @@ void prepare(const Counted& scene, const std::string& path) {
   write_checkpoint(path, record, start.state);
 }
 
-// So many samples of one state.
+// Takes this number of samples of one state.
 void measure(const Counted& counted, const std::string& path, int samples) {
   const Checkpoint start = read_checkpoint(path);
   const Scene scene = parse_scene(

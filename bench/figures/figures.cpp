@@ -1,5 +1,5 @@
-// Measures the figures that speed is promised in, prints them as a table and writes them, with the machine they were
-// measured on, into a folder; the rows of parts that are not measured stay as they are.
+// Measures the figures for which a speed is promised, prints them as a table and writes them, with a description of the
+// machine, into a folder; the rows of parts that are not measured stay as they are.
 //   carom_figures FOLDER [gas|scaling|special|features|exact|exact_growth|borders|memory]...   all, if none is named
 #include "bench/figures/figures.hpp"
 
@@ -55,7 +55,7 @@ std::vector<std::string> other_rows(const std::string& file, const std::vector<F
   std::vector<std::string> rows;
   std::ifstream before(file);
   std::string row;
-  std::getline(before, row);  // names of columns
+  std::getline(before, row);  // names of the columns
   while (std::getline(before, row)) {
     const auto is_row_of = [&](const Figure& f) { return row.starts_with(quoted(f.name) + ','); };
     if (std::none_of(figures.begin(), figures.end(), is_row_of)) rows.push_back(row);
@@ -83,7 +83,7 @@ void write_machine(const std::string& folder) {
 
 int run(const FigureWords& words) {
   const std::string& folder = words.folder;
-  std::filesystem::create_directories(folder);  // before minutes of measuring
+  std::filesystem::create_directories(folder);  // fails now, before minutes of measuring
   std::vector<Figure> all;
   const auto add = [&](std::vector<Figure> figures) { all.insert(all.end(), figures.begin(), figures.end()); };
   if (words.wants("memory")) add(measure_memory(CAROM_PROGRAM, CAROM_SOURCE_DIR "/scenes/gas_million.toml"));

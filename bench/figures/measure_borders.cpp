@@ -1,5 +1,6 @@
-// How far from the borders between regions the exact method cannot tell a disk's motion until the border pass: what
-// several machines would have to send each other. Counts and lengths; no clock is read.
+// The distance from the borders between regions up to which the exact method does not know the motion of disks before
+// the border pass: several machines would have to send each other these disks. Counts and lengths only; no time is
+// measured.
 #include <fmt/format.h>
 #include <fmt/os.h>
 
@@ -21,7 +22,7 @@ constexpr std::size_t disks = 200'000;
 constexpr int regions = 4;
 constexpr int windows = 4;
 
-// What the slices of a run left to their borders.
+// The disks that the slices of a run left to their borders.
 class BorderZone {
  public:
   explicit BorderZone(const Start& start)
@@ -73,7 +74,7 @@ class BorderZone {
   }
 
  private:
-  // Where a region begins and ends across the longer side; length.
+  // The ends of a region along the longer side; length.
   struct Sides {
     double low, high;
   };
@@ -83,14 +84,14 @@ class BorderZone {
     return {region.worker.region.first_key * per_key, region.worker.region.last_key * per_key};
   }
 
-  // From the nearer border; 0 for a disk that has left its region since the disks were sorted.
+  // The distance from the nearer border; 0 for a disk that has left its region since disks were sorted.
   double depth_at(const Sides& sides, Vec2 place) const {
     const double middle = 0.5 * (sides.low + sides.high);
     double off = (wide_ ? place.x : place.y) - middle;
     if (periodic_) off = nearest_image(off, longer_);
     const double half = 0.5 * (sides.high - sides.low);
     double depth = half - std::abs(off);
-    if (!periodic_ && sides.low == 0.0) depth = half - off;  // there a wall is no border
+    if (!periodic_ && sides.low == 0.0) depth = half - off;  // a wall there is not a border
     if (!periodic_ && sides.high >= longer_ * (1.0 - 1e-9)) depth = half + off;
     return std::max(0.0, depth);
   }
@@ -102,7 +103,7 @@ class BorderZone {
     });
   }
 
-  // At the end of the slice.
+  // The disk's place at the end of the slice.
   static Vec2 place_of(const SliceBorders& slice, std::uint32_t i) {
     const PathSegment p =
         carried_to(slice.window.record[i].path, slice.window.slice_stop(), slice.window.rules.gravity);
@@ -111,12 +112,12 @@ class BorderZone {
 
   bool wide_;
   double longer_, shorter_;  // sides of the box; regions lie one after another along the longer one
-  bool periodic_;            // there
-  double spacing_ = 0.0;     // mean distance of disks, the root of the area that each has
-  double diameter_ = 0.0;    // mean
+  bool periodic_;            // along the longer side
+  double spacing_ = 0.0;     // mean distance of disks, the square root of the area per disk
+  double diameter_ = 0.0;    // mean diameter
   double skin_ = 0.0;
   std::vector<double> depth_;  // of disks whose motion was not known; length
-  double listed_ = 0.0;        // of the furthest disk that one of them lists; length
+  double listed_ = 0.0;        // of the furthest disk in their lists; length
   Count slices_ = 0;
   Count events_ = 0, at_borders_ = 0;
   Count events_before_ = 0, at_borders_before_ = 0;  // of the window
@@ -126,7 +127,7 @@ class BorderZone {
   }
 };
 
-// Run for four collisions a disk before it is looked at.
+// The state after four collisions per disk.
 Start mixed(const std::string& text, const char* name) {
   Scene scene = parse_scene(text + "[run]\nmethod = \"exact\"\nt_end = 1e12\n", name, "");
   const auto engine = make_parallel_engine(scene, initial_state(scene), {2});
@@ -147,7 +148,7 @@ Start with_radii(const char* positions, const char* radius) {
                "radii");
 }
 
-// Twice as high as wide, so that borders lie across gravity.
+// The box is twice as high as wide, so that borders are perpendicular to gravity.
 Start under_gravity() {
   return mixed(fmt::format("[box]\npacking_fraction = 0.3\naspect = 0.5\nleft = \"periodic\"\nright = \"periodic\"\n"
                            "[physics]\ngravity = 0.2\n[[disks]]\ncount = {}\npositions = \"hexagonal\"\n"

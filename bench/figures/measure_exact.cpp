@@ -1,4 +1,4 @@
-// Collisions a second of the exact method against the yardstick, over threads, disks and packing fractions.
+// Collisions per second of the exact method, compared with the yardstick, over threads, disks and packing fractions.
 #include <fmt/format.h>
 #include <fmt/os.h>
 
@@ -18,15 +18,15 @@ namespace carom::bench {
 namespace {
 
 constexpr int rounds = 5;
-constexpr int growth_rounds = 2;  // of half a minute each, and as long to begin with
+constexpr int growth_rounds = 2;  // of half a minute each, with as much time for warming up
 constexpr std::size_t million = 1'000'000;
 
-// A turn: a million collisions or some more (the yardstick half a million), and several windows, so that listing is
-// shared out.
+// A turn has at least a million collisions (half a million for the yardstick) and several windows, so that making lists
+// is shared among them.
 constexpr double turn_work = 1e6;
 constexpr double windows_at_least = 2.0;
-// A disk, by which a turn has its number of windows. At packing fraction 0.5 they hold 2, as they aim at
-// (core/step/window_length.cpp); the hashes of earlier results are those of so many windows.
+// For each disk; it determines the number of windows in a turn. At packing fraction 0.5 windows in fact have 2, the
+// number at which they aim (core/step/window_length.cpp); the hashes of earlier results are for this number of windows.
 constexpr double collisions_a_window = 0.9;
 
 int windows_a_turn(std::size_t disks) {
@@ -34,14 +34,14 @@ int windows_a_turn(std::size_t disks) {
       std::max(windows_at_least, turn_work / std::max(32.0, collisions_a_window * static_cast<double>(disks))));
 }
 
-// All that takes turns, and the columns that the table of each turn has.
+// A contender, and its columns in the table.
 struct Entry {
   std::string method;
   std::size_t disks;
   double packing_fraction;
   int threads;
-  std::shared_ptr<Engine> engine;  // none for the yardstick
-  Contender turns;                 // times in seconds a collision
+  std::shared_ptr<Engine> engine;  // null for the yardstick
+  Contender turns;                 // seconds for each collision
 };
 
 Entry exact_entry(const Start& start, double packing_fraction, int threads) {
@@ -85,7 +85,7 @@ std::vector<Entry> make_entries() {
   return all;
 }
 
-// Where an entry of these properties took its turns.
+// The turns of the entry with these properties.
 const Contender& turns_of(const std::vector<Entry>& all, std::size_t disks, int threads,
                           double packing_fraction = 0.5) {
   const auto it = std::find_if(all.begin(), all.end(), [&](const Entry& e) {
@@ -102,7 +102,7 @@ double millions_a_second(const Contender& c) {
   return 1e-6 / median_time(c);
 }
 
-// Writes the table; returns how many scenes gave 1 and 2 threads different states.
+// Writes the table; returns the number of scenes in which 1 and 2 threads gave different states.
 int write_table(const std::string& path, const std::vector<Entry>& all) {
   auto file = fmt::output_file(path);
   file.print("method,disks,packing_fraction,threads,million_collisions_per_s,ns_per_collision,state_hash\n");

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t million = 1'000'000;
 constexpr int steps_a_turn = 24;
 
-// Takes turns of steps of an engine of its own; times are in ns per disk and step.
+// A contender whose turns are steps of an engine of its own; times are in ns per disk and step.
 Contender stepping(const std::string& name, const Start& start, int threads) {
   std::shared_ptr<Engine> engine = make_parallel_engine(start.scene, start.state, {threads});
   return {name,

@@ -16,11 +16,11 @@ namespace carom::bench {
 namespace {
 
 constexpr std::size_t million = 1'000'000;
-// Steps a turn: about three sorts, so that turns are alike.
+// Steps in a turn: about three sorts, so that turns are alike.
 constexpr int steps_a_turn = 36;
 constexpr int rounds = 9;
 
-// What a phase took in each round.
+// The time of a phase in each round.
 class PhaseRounds {
  public:
   explicit PhaseRounds(const Engine& engine) : engine_(engine) {}
@@ -31,7 +31,7 @@ class PhaseRounds {
       before = phase.seconds;
     }
   }
-  // Without the first round, which warms up.
+  // Excludes the first round, which warms up.
   std::vector<double> times(const std::string& name) const {
     const std::vector<double>& all = times_.at(name);
     return {all.begin() + 1, all.end()};
@@ -43,7 +43,7 @@ class PhaseRounds {
   std::map<std::string, std::vector<double>> times_;
 };
 
-// A phase as short as this share of the step is not held to a speed-up of its own.
+// Phases shorter than this share of the step need not have a speed-up of their own.
 constexpr double small_share = 0.1;
 
 void add_phases(const Engine& one, const PhaseRounds& rounds_one, const PhaseRounds& rounds_two, double step_two,
@@ -58,7 +58,7 @@ void add_phases(const Engine& one, const PhaseRounds& rounds_one, const PhaseRou
     const double share = two / step_two;
     file.print("{},{:.3f},{:.3f},{:.3f},{:.3f}\n", name, median(rounds_one.times(name)) * nanoseconds, two, share,
                speed_up);
-    // Named all the same, so that no row of an earlier commit stays for one that has become short.
+    // Short phases are listed as well, so that no row of an earlier commit remains for them.
     const auto at_least = share > small_share ? std::optional(1.5) : std::nullopt;
     figures.push_back({"phase " + name + ": 2 threads against 1", speed_up, "", {}, at_least});
   }

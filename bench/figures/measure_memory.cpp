@@ -12,7 +12,7 @@ namespace carom::bench {
 
 namespace {
 
-// Largest resident memory of `program run scene` until t_end, in bytes.
+// The largest resident memory of `program run scene` until t_end, in bytes.
 double peak_of_run(const std::string& program, const std::string& scene, const std::string& method,
                    const std::string& t_end) {
   const std::vector<std::string> words{program,  "run",     scene,      "--t-end", t_end,
@@ -38,7 +38,7 @@ double peak_of_run(const std::string& program, const std::string& scene, const s
 
 std::vector<Figure> measure_memory(const std::string& program, const std::string& scene) {
   constexpr double disks = 1e6;
-  // Ten steps; a few windows.
+  // The runs take ten steps, or a few windows.
   return {{"G: memory at peak of carom run",
            peak_of_run(program, scene, "pairwise", "0.05") / disks,
            "bytes per disk",

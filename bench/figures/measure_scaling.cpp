@@ -20,12 +20,12 @@ namespace {
 constexpr std::array<std::size_t, 4> sizes{10'000, 100'000, 1'000'000, 10'000'000};
 constexpr int rounds = 5;
 
-// About 10^7 disk-steps a turn, and two or three sorts at least.
+// About 10^7 disk-steps in a turn, and at least two or three sorts.
 int steps_a_turn(std::size_t disks) {
   return std::max(10, static_cast<int>(10'000'000 / disks));
 }
 
-// Everything that takes turns at one size.
+// The contenders for one number of disks.
 struct Size {
   std::size_t disks;
   std::unique_ptr<Engine> one, two;
@@ -46,7 +46,7 @@ std::vector<Figure> measure_scaling(const std::string& folder) {
   const Executor executor_two(2);
   std::vector<Size> all;
   for (const std::size_t disks : sizes) all.push_back(make_size(disks));
-  std::vector<Contender> turns;  // four a size
+  std::vector<Contender> turns;  // four for each size
   for (const Size& size : all) {
     const int steps = steps_a_turn(size.disks);
     const auto repeat = [&](const char* what, auto&& one_step) {

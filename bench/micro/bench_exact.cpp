@@ -1,6 +1,6 @@
-// The exact method over disks and threads beside the yardstick, in collisions a second (items_per_second), packing
-// fraction 0.5 where no other is named. A row's label is the state's hash after its fixed number of windows (or, for
-// the yardstick, of collisions): rows of one scene must agree, whatever the threads.
+// The exact method over disks and threads beside the yardstick, in collisions per second (items_per_second), at packing
+// fraction 0.5 unless another is named. The label of a row is the hash of the state after its fixed number of windows
+// (for the yardstick, of collisions): rows of one scene must agree for any number of threads.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -21,11 +21,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Collisions a row, a second of work or two.
+// Collisions in a row: a second of work or two.
 constexpr double row_work = 1e6;
-// By this rows have their number of windows, and the yardstick what it does in the place of one. A window holds
-// more, two collisions a disk at packing fraction 0.5 as it aims at (core/step/window_length.cpp); the hashes of
-// earlier rows are those of so many windows.
+// It determines the number of windows in a row, and the work of the yardstick in place of a window. Windows in fact
+// have more, two collisions per disk at packing fraction 0.5, at which they aim (core/step/window_length.cpp); the
+// hashes of earlier rows are for this number of windows.
 double collisions_a_window(std::size_t disks) {
   return std::max(32.0, 0.7 * static_cast<double>(disks));
 }
@@ -57,7 +57,7 @@ void time_each(benchmark::State& row, Work&& work, Collisions&& collisions) {
 void exact_row(benchmark::State& row, std::size_t disks, double packing_fraction, int threads) {
   const Start& start = gas_of(disks, packing_fraction);
   const auto engine = make_parallel_engine(start.scene, start.state, {threads});
-  engine->step();  // makes its lists
+  engine->step();  // makes the lists
   time_each(
       row, [&] { engine->step(); }, [&] { return engine->state().counters.collisions; });
   row.SetLabel(hash_text(state_hash(engine->state().disks)));
@@ -95,7 +95,7 @@ void yardstick_row(benchmark::State& row, std::size_t disks) {
           [=](benchmark::State& row) { exact_row(row, 100'000, packing_fraction, threads); });
     }
   }
-  // The least that a collision costs, in a scene where windows, lists and slices hold nothing worth sharing out.
+  // The least cost of a collision, in a scene so small that windows, lists and slices have hardly any cost.
   add("exact/fraction:0.1/disks:2/threads:1", 2, [](benchmark::State& row) { exact_row(row, 2, 0.1, 1); });
   return true;
 }();

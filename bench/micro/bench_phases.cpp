@@ -1,5 +1,5 @@
 // Each phase of a step of scene G alone, over disks and threads; the sort also with disks stored in random order (the
-// other phases always see sorted disks). A row's label is a hash of what the phase made.
+// other phases always get sorted disks). The label of a row is a hash of the phase's result.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Scene G at the end of a drift, in sorted cells: what the search sees.
+// Scene G at the end of a drift, in sorted cells, as the search gets it.
 struct Drifted {
   Start start;  // before the drift, sorted
   State state;
@@ -45,11 +45,11 @@ const Drifted& drifted_gas(std::size_t disks) {
   return d;
 }
 
-// Runs prepare() outside and work() inside the time taken, each iteration.
+// In each iteration prepare() is not timed, and work() is.
 template <class Prepare, class Work>
 void time_work(benchmark::State& row, std::size_t disks, Prepare&& prepare, Work&& work) {
   prepare();
-  work();  // memory is had, caches are warm
+  work();  // allocates memory and warms up the caches
   for (auto _ : row) {
     prepare();
     const Shield shield;
@@ -68,7 +68,7 @@ void sort_row(benchmark::State& row, std::size_t disks, int threads, bool shuffl
   SortedCells cells;
   time_work(
       row, disks, [&] { state = input; }, [&] { sort_into_cells(state.disks, gas.cells.grid, executor, cells); });
-  // Ids in their new order: those of one cell keep the order they came in.
+  // The ids in their new order: disks of one cell keep their previous order.
   std::uint64_t order = 0;
   for (const DiskId id : state.disks.id) order = order * 0x9e3779b97f4a7c15ULL + id;
   row.SetLabel(hash_text(order));
@@ -79,7 +79,7 @@ void drift_row(benchmark::State& row, std::size_t disks, int threads) {
   const Executor executor(threads);
   State state = gas.state;
   CellList cells = gas.cells;
-  double t = gas.start.scene.run.dt;  // to and fro, so that disks stay where they are on average
+  double t = gas.start.scene.run.dt;  // forwards and backwards, so that disks stay where they are on average
   time_work(
       row, disks, [&] { t = -t; }, [&] { drift_blocks(state.disks, gas.start.scene.box, 0.0, t, executor, cells); });
   row.SetLabel(hash_text(state_hash(state.disks)));

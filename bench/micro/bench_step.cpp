@@ -1,6 +1,6 @@
-// The whole step of scene G over disks and threads, beside the copy limit of the same threads. A row's label is the
-// state's hash after its fixed number of steps: rows of one size must agree, whatever the threads and the storage
-// order.
+// The whole step of scene G over disks and threads, beside the copy limit of the same threads. The label of a row is
+// the hash of the state after its fixed number of steps: rows of one size must agree for any number of threads and any
+// order of storage.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Disk-steps a row, about a second of work; at least 20 steps, that is a few sorts.
+// Disk-steps in a row, about a second of work; at least 20 steps, which include a few sorts.
 constexpr double row_work = 2e7;
 
 const Start& gas_of(std::size_t disks) {
@@ -49,12 +49,12 @@ void time_each(benchmark::State& row, std::size_t disks, Work&& work) {
 void step_row(benchmark::State& row, std::size_t disks, int threads) {
   const Start& start = gas_of(disks);
   const auto engine = make_parallel_engine(start.scene, start.state, {threads});
-  for (int k = 0; k < 10; ++k) engine->step();  // warm
+  for (int k = 0; k < 10; ++k) engine->step();  // warms up
   time_each(row, disks, [&] { engine->step(); });
   row.SetLabel(hash_text(state_hash(engine->state().disks)));
 }
 
-// Storage order matters until the first sort: that one step, from disks stored at random.
+// The order of storage matters only until the first sort: this is that one step, from disks stored in random order.
 void first_step_row(benchmark::State& row, std::size_t disks, int threads, bool shuffle) {
   const Start& start = gas_of(disks);
   const State state = shuffle ? shuffled(start.state) : start.state;

@@ -41,13 +41,13 @@ State after(const Scene& scene, State state, int steps) {
 Start prepared(const std::string& text, const char* name, double dt, int steps, double next_dt) {
   Scene scene = parse_scene(text + run_text(dt), name, "");
   State state = after(scene, initial_state(scene), steps);
-  if (scene.physics.thermostat.acts()) state.intervals = 0;  // the next kick is due at once
+  if (scene.physics.thermostat.acts()) state.intervals = 0;  // so that the next kick is due at once
   scene.run.dt = next_dt;
   return {std::move(scene), std::move(state)};
 }
 
-// Repeats a state that is periodic from left to right side by side. A load between disks on either side of a seam comes
-// to lie between two copies.
+// Copies of a state that is periodic along x, side by side. A load between disks across a seam then acts between two
+// copies.
 State repeated(const State& tile, double width, std::size_t copies) {
   const auto n = static_cast<DiskId>(tile.disks.size());
   State all;
@@ -94,7 +94,7 @@ Start gas(std::size_t count, const std::string& feature) {
 
 namespace {
 
-// Run for four collisions a disk.
+// The state after four collisions per disk.
 Start melted(Scene scene) {
   constexpr double collisions_a_disk = 4.0;
   const double count = static_cast<double>(scene.groups.back().count);
@@ -103,8 +103,8 @@ Start melted(Scene scene) {
     engine->step();
   }
   State state = engine->state();
-  if (scene.physics.thermostat.acts()) state.intervals = 0;  // the next kick is due at once
-  // Where images, or sides, move they stand elsewhere at another time.
+  if (scene.physics.thermostat.acts()) state.intervals = 0;  // so that the next kick is due at once
+  // Moving images and sides would be elsewhere at another time.
   if (!scene.box.shear.acts() && !scene.box.has_moving_side()) state.time = 0.0;
   state.counters = {};
   return {std::move(scene), std::move(state)};
@@ -113,7 +113,7 @@ Start melted(Scene scene) {
 }  // namespace
 
 Start exact_gas(std::size_t count, double packing_fraction) {
-  // Two disks cover more than a million units of time in a turn.
+  // Two disks run through more than a million units of time in a turn.
   const std::string text = fmt::format(
       "[box]\npacking_fraction = {}\n{}[[disks]]\ncount = {}\npositions = \"hexagonal\"\n"
       "velocities = {{ maxwell = 1.0 }}\nradius = 0.5\nmass = 1.0\n[run]\nmethod = \"exact\"\nt_end = 1e12\n",
@@ -126,7 +126,8 @@ Start exact_gas_with(std::size_t count, const std::string& feature) {
 }
 
 Start wide_radii() {
-  // 10^6 small disks fill half of what the large ones leave: (0.785 + 0.785) / (0.785 / 0.5 + 0.785) = 2 / 3 in all.
+  // 10^6 small disks fill half of the area left by the large ones: (0.785 + 0.785) / (0.785 / 0.5 + 0.785) = 2 / 3 in
+  // all.
   const std::string text = fmt::format(
       "[box]\npacking_fraction = 0.6667\n{}"
       "[[disks]]\ncount = 100\npositions = \"random\"\nvelocities = {{ maxwell = 1.0 }}\nradius = 50.0\n"
@@ -145,7 +146,8 @@ Start settled_pile(std::size_t tile_disks, std::size_t copies) {
       "[[disks]]\ncount = {}\npositions = \"random\"\nvelocities = {{ uniform = 2.0 }}\n"
       "radius = {{ uniform = [1.0, 2.5] }}\nmass = {{ from_radius = 1.0 }}\n",
       width, tile_disks);
-  // It falls for 36 units of time and then calms down, with long steps; a thousand of B's own follow.
+  // The pile falls for 36 units of time and comes to rest, with long steps; then there are a thousand steps of B's own
+  // length.
   Start pile = prepared(text, "pile", 0.01, 20'000, 0.002);
   pile.state = repeated(after(pile.scene, std::move(pile.state), 1000), width, copies);
   pile.scene.box.width *= static_cast<double>(copies);
@@ -153,7 +155,7 @@ Start settled_pile(std::size_t tile_disks, std::size_t copies) {
 }
 
 State shuffled(State state) {
-  std::mt19937_64 random(1);  // the same numbers everywhere, unlike the standard's distributions
+  std::mt19937_64 random(1);  // gives the same numbers everywhere, unlike the standard's distributions
   std::vector<std::size_t> order(state.disks.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     order[i] = i;

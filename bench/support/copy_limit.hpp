@@ -1,4 +1,5 @@
-// The least that a step can cost on this machine: the four state columns read once and written once, 64 bytes a disk.
+// The least possible cost of a step on this machine: the four state columns read once and written once, 64 bytes per
+// disk.
 #pragma once
 
 #include <array>
@@ -17,7 +18,7 @@ class CopyLimit {
     for (auto& column : to_) column.assign(disks, 0.0);
   }
 
-  // Once, by as many threads as the executor has, in blocks as the engine's own passes use.
+  // Copies once, by all threads of the executor, in blocks like those of the engine's own passes.
   void copy(const Executor& executor) {
     constexpr std::size_t block = 16384;
     executor.for_ranges(disks_, block, [&](std::size_t, std::size_t begin, std::size_t end) {

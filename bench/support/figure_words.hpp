@@ -1,4 +1,4 @@
-// The words that carom_figures is called with.
+// The command-line arguments of carom_figures.
 #pragma once
 
 #include <algorithm>
@@ -13,28 +13,27 @@
 
 namespace carom::bench {
 
-// In the order in which they are measured. Memory is first, as the peak of a program that is started is no less than
-// what this one has had.
+// In the order of measuring. Memory comes first, as the peak of a child process includes that of this process so far.
 inline constexpr std::array<std::string_view, 8> figure_parts{"memory",   "gas",   "scaling",      "special",
                                                               "features", "exact", "exact_growth", "borders"};
 
 struct FigureWords {
   std::string folder;              // for the results
-  std::vector<std::string> parts;  // to be measured; none: all
+  std::vector<std::string> parts;  // to be measured; none: all parts
 
   bool wants(std::string_view part) const {
     return parts.empty() || std::find(parts.begin(), parts.end(), part) != parts.end();
   }
 };
 
-// words: without the program's name. Throws InputError for one that is not known, before minutes of measuring.
+// words: without the program's name. Throws InputError for an unknown one, before minutes of measuring.
 inline FigureWords figure_words(std::span<const std::string> words) {
   const auto is_part = [](std::string_view word) {
     return std::find(figure_parts.begin(), figure_parts.end(), word) != figure_parts.end();
   };
   if (words.empty()) throw InputError("no folder given; expected one for the results");
   const std::string& folder = words.front();
-  // An option, or the first of the parts where the folder was forgotten.
+  // An option, or a part's name because the folder was forgotten.
   if (folder.empty() || folder.starts_with('-') || is_part(folder)) {
     fail_input(in_quotes(folder), "stands where the folder is expected",
                "expected a folder for the results, such as ./" + folder);

@@ -14,7 +14,7 @@ namespace {
 const std::string periodic = "left = \"periodic\"\nright = \"periodic\"\nbottom = \"periodic\"\ntop = \"periodic\"\n";
 const std::string walls = "left = \"wall\"\nright = \"wall\"\nbottom = \"wall\"\ntop = \"wall\"\n";
 
-// A thousand pegs, or the corners of a polyline, 0.6 above and below the middle of the strip at the bottom.
+// A thousand pegs, or corners of a polyline, 0.6 above and below the middle of the strip at the bottom.
 std::string row_of_places(double width) {
   constexpr int places = 1000;
   std::string list;

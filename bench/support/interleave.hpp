@@ -1,5 +1,5 @@
-// Comparing contenders on a machine whose speed changes from one second to the next: they take turns, round by round,
-// and what is compared is their times within a round.
+// Comparisons on a machine whose speed changes from one second to the next: contenders take turns, round by round, and
+// their times within a round are compared.
 #pragma once
 
 #include <algorithm>
@@ -15,14 +15,14 @@ namespace carom::bench {
 
 struct Contender {
   std::string name;
-  double work;  // what one run() is worth, to divide its time by
+  double work;  // amount of work in one run(), by which its time is divided
   std::function<void()> run;
-  std::vector<double> times;  // seconds over work, one a round
-  // Where what a run is worth is known only afterwards (collisions): counts it all, and stands in for `work`.
+  std::vector<double> times;  // seconds over work, one for each round
+  // If the work of a run is known only afterwards (collisions): the total count so far, used instead of `work`.
   std::function<double()> counter = {};
 };
 
-// Of an even number of values, the mean of the two in the middle. Precondition: there are some.
+// For an even number of values, the mean of the two in the middle. Precondition: there are some.
 inline double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -34,7 +34,7 @@ inline double median_time(const Contender& c) {
   return median(c.times);
 }
 
-// Median over the rounds of a's time over b's.
+// The median over the rounds of a's time over b's.
 inline double ratio(const std::vector<double>& a, const std::vector<double>& b) {
   std::vector<double> ratios(a.size());
   for (std::size_t k = 0; k < a.size(); ++k) ratios[k] = a[k] / b[k];
@@ -44,7 +44,8 @@ inline double ratio(const Contender& a, const Contender& b) {
   return ratio(a.times, b.times);
 }
 
-// The first round warms up: its times are dropped. after_round, where given, is called after each round, the first too.
+// The first round warms up, and its times are dropped. after_round, if given, is called after each round, including the
+// first.
 inline void interleave(std::vector<Contender>& contenders, int rounds, const std::function<void()>& after_round = {}) {
   using Clock = std::chrono::steady_clock;
   for (int round = 0; round <= rounds; ++round) {

@@ -1,5 +1,5 @@
-// Keeps other programs off the processors while something is measured, on a machine that is shared. Only where it is
-// asked for (CAROM_BENCH_SHIELD=1) and allowed (root): all other processes wait meanwhile.
+// Keeps other programs off the processors during a measurement on a shared machine. Only if requested
+// (CAROM_BENCH_SHIELD=1) and permitted (root): meanwhile all other processes wait.
 #pragma once
 
 #include <sched.h>
@@ -10,7 +10,7 @@
 
 namespace carom::bench {
 
-// From construction to destruction all threads of this process run before those of others.
+// From construction to destruction all threads of this process have priority over those of others.
 class Shield {
  public:
   Shield() {
@@ -28,7 +28,7 @@ class Shield {
   }
 
  private:
-  // The scheduling class is set thread by thread; threads made later inherit it. Where it is not allowed, nothing
+  // The scheduling class is set for each thread; threads made later inherit it. Without the right to do so nothing
   // happens.
   static void set(int policy, int priority) {
     sched_param parameters{};

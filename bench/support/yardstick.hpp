@@ -1,7 +1,7 @@
-// What the exact method's speed is compared with: an event-driven simulation as the textbooks write it (Rapaport, The
-// Art of Molecular Dynamics Simulation, ch. 14). One binary heap of all predicted events, invalidated lazily by a
-// counter a disk; cells with lists and cell-crossing events; every disk at a time of its own; nothing parallel, no
-// windows. Equal disks of mass 1 in a periodic box.
+// The program with which the speed of the exact method is compared: an event-driven simulation as in textbooks
+// (Rapaport, The Art of Molecular Dynamics Simulation, ch. 14). It has one binary heap of all predicted events, which a
+// counter for each disk invalidates lazily; cells with lists and cell-crossing events; a separate time for every disk;
+// neither threads nor windows. Equal disks of mass 1 in a periodic box.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace carom::bench {
 
 class Yardstick {
  public:
-  // Disks keep their storage order. Throws where it would need what it lacks.
+  // Disks keep their order of storage. Throws if the scene needs features that are missing here.
   Yardstick(const Disks& disks, const Domain& box) : width_(box.width), height_(box.height) {
     const bool equal = disks.radius.empty() && disks.mass.empty();
     const double diameter = 2.0 * disks.common_radius;
@@ -50,13 +50,13 @@ class Yardstick {
     }
   }
 
-  // Handles the events up to time t.
+  // Processes the events up to time t.
   void run_until(double t) {
     while (!events_.empty() && events_.top().time <= t) handle_next();
     time_ = t;
   }
 
-  // Handles events until `count` disks more have collided.
+  // Processes events until `count` further collisions have occurred.
   void run_collisions(Count count) {
     const Count until = collisions_ + count;
     while (collisions_ < until && !events_.empty()) handle_next();
@@ -65,7 +65,7 @@ class Yardstick {
   Count collisions() const { return collisions_; }
   double time() const { return time_; }
 
-  // Positions and velocities at time(), written into the columns of `disks`, in storage order.
+  // Writes positions and velocities at time() into the columns of `disks`, in their order of storage.
   void write_to(Disks& disks) const {
     for (std::size_t i = 0; i < balls_.size(); ++i) {
       Ball b = balls_[i];
@@ -79,15 +79,15 @@ class Yardstick {
 
  private:
   static constexpr std::uint32_t none = 0xffffffffU;
-  // In place of a partner: the disk crosses a border of its cell.
+  // Stands for a partner: the disk crosses a border of its cell.
   static constexpr std::uint32_t to_left = none - 4, to_right = none - 3, to_bottom = none - 2, to_top = none - 1;
 
   struct Ball {
     double x, y, vx, vy;
-    double time;                   // at which it is at x, y
-    std::uint32_t count;           // of its collisions: an event with another count is void
+    double time;                   // the time at which the disk is at x, y
+    std::uint32_t count;           // number of its collisions: an event with another count is invalid
     std::uint32_t column, row;     // its cell
-    std::uint32_t next, previous;  // in the cell's list
+    std::uint32_t next, previous;  // in the list of the cell
   };
 
   struct Event {
@@ -159,7 +159,8 @@ class Yardstick {
     }
   }
 
-  // Into the next cell; beyond it lie three whose disks have not been tested against this one.
+  // Moves the disk into the next cell; beyond that are three cells whose disks have not yet been tested against this
+  // one.
   void cross(std::uint32_t i, std::uint32_t border) {
     leave_cell(i);
     Ball& b = balls_[i];
@@ -197,7 +198,7 @@ class Yardstick {
     events_.push({b.time + std::min(t_x, t_y), i, border, b.count, 0});
   }
 
-  // With the disks of a cell next to i's own whose number is below `end`.
+  // Predicts with the disks of a cell next to i's own whose number is below `end`.
   void predict_with_cell(std::uint32_t i, int column_step, int row_step, std::uint32_t end) {
     const Ball& a = balls_[i];
     const std::size_t row = next_to(a.row, row_step, rows_);
@@ -207,7 +208,7 @@ class Yardstick {
     }
   }
 
-  // i is at the present time. The root of the quadratic that does not cancel.
+  // Disk i is at the present time. The form of the quadratic's root avoids cancellation.
   void predict_pair(std::uint32_t i, std::uint32_t j) {
     const Ball& a = balls_[i];
     Ball b = balls_[j];
@@ -231,7 +232,7 @@ class Yardstick {
   double time_ = 0.0;
   Count collisions_ = 0;
   std::vector<Ball> balls_;
-  std::vector<std::uint32_t> first_;  // disk of each cell's list
+  std::vector<std::uint32_t> first_;  // the first disk in the list of each cell
   std::priority_queue<Event, std::vector<Event>, Later> events_;
 };
 
