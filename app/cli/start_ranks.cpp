@@ -32,10 +32,12 @@ struct Setting {
   const char *name, *value;
 };
 // Settings for Open MPI, unless the user has set them: more ranks than cores are allowed, and sleep while they wait; no
-// reading of other processes' memory, which containers forbid; and when a rank has died, the others have this number of
-// seconds to end.
-constexpr std::array<Setting, 4> mpi_settings{{{"OMPI_MCA_rmaps_base_oversubscribe", "1"},
+// rank is bound to a core, since Open MPI would bind one or two ranks to a core each, with all their threads and the
+// programs that rank 0 starts; no reading of other processes' memory, which containers forbid; and when a rank has died,
+// the others have this number of seconds to end.
+constexpr std::array<Setting, 5> mpi_settings{{{"OMPI_MCA_rmaps_base_oversubscribe", "1"},
                                                {"OMPI_MCA_mpi_yield_when_idle", "1"},
+                                               {"OMPI_MCA_hwloc_base_binding_policy", "none"},
                                                {"OMPI_MCA_btl_vader_single_copy_mechanism", "none"},
                                                {"OMPI_MCA_odls_base_sigkill_timeout", "1"}}};
 

@@ -89,6 +89,15 @@ TEST_F(RanksRun, LeavesTheFilesOfOneProcessWithExact) {
   EXPECT_EQ(summary("one"), summary("parts"));
 }
 
+// Two ranks were bound to a core each: all threads of a rank shared it, and so did ffmpeg. mpiexec starts nproc in
+// their place.
+TEST_F(RanksRun, EachMayUseAllCores) {
+  write("mpiexec", "#!/bin/sh\nexec \"$MPIEXEC\" -q -n 2 --allow-run-as-root nproc\n");
+  std::filesystem::permissions(at("mpiexec"), std::filesystem::perms::owner_all);
+  const std::string cores = shell("nproc").out;
+  EXPECT_EQ(shell("MPIEXEC=$(command -v mpiexec) PATH=.:$PATH $C run scene.toml -o out --ranks 2").out, cores + cores);
+}
+
 // A pile that lands, with pictures of it; what contacts bear goes on from the checkpoint, too.
 TEST_F(RanksRun, LeavesTheFilesOfOneProcessWithAPile) {
   const std::string run =
@@ -101,7 +110,7 @@ TEST_F(RanksRun, LeavesTheFilesOfOneProcessWithAPile) {
   for (const char* file : {"trajectory.xyz", "series.csv", "velocity.svg", "energy.svg"}) {
     EXPECT_TRUE(text_of(at("one") / file) == text_of(at("r2") / file)) << file;
   }
-  // Its bytes tell how many threads ffmpeg had, which finds fewer cores under mpiexec.
+  // Its bytes tell how many threads ffmpeg had, and so how many cores it found.
   const auto pixels = [&](const std::string& folder) {
     return shell("ffmpeg -loglevel error -i " + folder + "/movie.mp4 -f md5 -").out;
   };
