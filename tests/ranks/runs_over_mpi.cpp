@@ -284,7 +284,7 @@ TEST_F(RanksRun, ASweepOfThemLeavesTheTableOfOneProcess) {
   ASSERT_EQ(carom(sweep + "--ranks 2 --emit slurm -o script").status, 0);
   const std::string script = text_of(at("script/sweep.sbatch"));
   EXPECT_NE(script.find("#SBATCH --array=1-2\n#SBATCH --ntasks=2\n"), std::string::npos) << script;
-  EXPECT_NE(script.find("exec mpirun -n 2 '"), std::string::npos) << script;
+  EXPECT_NE(script.find("exec mpirun -n 2 --bind-to none '"), std::string::npos) << script;
   for (const char* const task : {"1", "2"}) {
     const Outcome o = shell(fmt::format(
         "OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1 OMPI_ALLOW_RUN_AS_ROOT=1 "
