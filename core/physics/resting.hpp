@@ -72,11 +72,13 @@ bool is_solved(const View& d, const StepRules& rules, const ContactEvent& e, Con
   return (status.crowded && may_lose_energy(d, rules, e)) || is_support(d, rules, e, status);
 }
 
-// The overlap that a loaded contact keeps; length.
+// The overlap that a loaded contact keeps; length. A step that is shorter than the others, such as the last one of a
+// run, keeps as much as they do: otherwise it would push the whole pile up.
 template <class View>
 double slack_of(const View& d, const StepRules& rules, const ContactEvent& e) {
   const double contact_distance = is_wall(e.id2) ? d.radius(e.i1) : d.radius(e.i1) + d.radius(e.i2);
-  return std::min(contact_slop * rules.gravity.size * rules.dt * rules.dt, largest_slop * contact_distance);
+  const double dt = std::max(rules.dt, rules.whole_dt);
+  return std::min(contact_slop * rules.gravity.size * dt * dt, largest_slop * contact_distance);
 }
 
 // A disk that bears on a wall stays on it: if its loads have lifted it off by less than slack (length), it is put back.

@@ -24,6 +24,7 @@ struct StepRules {
   int round = 0;                          // number of the round of finding and resolving contacts within the step
   const RestitutionLaw* law = nullptr;    // of disks, where `restitution` is not all
   const Surfaces* surfaces = nullptr;     // where disks are rough
+  double whole_dt = 0.0;                  // length of a whole step, if this one may be shorter
 };
 
 // The outcome of a contact of two disks.

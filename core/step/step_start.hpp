@@ -41,6 +41,7 @@ inline bool settles(const Scene& scene) {
 
 inline StepRules rules_for(const Scene& scene, double dt) {
   StepRules rules{scene.box, scene.physics.gravity, scene.physics.restitution, dt, settles(scene)};
+  rules.whole_dt = scene.run.dt;
   rules.law = law_of(scene);
   rules.surfaces = surfaces_of(scene);
   return rules;

@@ -125,6 +125,8 @@ TEST(Slack, IsThatOfAFewSteps) {
   };
   EXPECT_DOUBLE_EQ(slack(1), 64.0 * g * dt * dt);
   EXPECT_DOUBLE_EQ(slack(wall_partner(Side::bottom)), 64.0 * g * dt * dt);
+  rules.whole_dt = 1.2 * dt;
+  EXPECT_DOUBLE_EQ(slack(1), 64.0 * g * rules.whole_dt * rules.whole_dt) << "this step is shorter than the others";
   rules.dt = 0.1;
   EXPECT_DOUBLE_EQ(slack(1), 0.005 * 4.0);
   EXPECT_DOUBLE_EQ(slack(wall_partner(Side::bottom)), 0.005 * 3.0);
