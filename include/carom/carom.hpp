@@ -1,5 +1,5 @@
-// Carom from C++20: carom.h with an owner for the handle, spans, and exceptions that are thrown on this side of it.
-// Everything is inline and calls the C functions; no physics is compiled with the program's flags.
+// Carom from C++20: carom.h with an owner for the handle, spans, and exceptions, which are thrown on this side of the C
+// interface. Everything is inline and calls the C functions; no physics is compiled with the program's flags.
 #ifndef CAROM_HPP
 #define CAROM_HPP
 
@@ -18,7 +18,7 @@
 namespace carom {
 inline namespace handle {
 
-// A call that failed: the line of carom_error(), and which kind of failure.
+// A failed call: the line of carom_error(), and the kind of failure.
 class Error : public std::runtime_error {
  public:
   Error(carom_status status, const char* what) : std::runtime_error(what), status_(status) {}
@@ -40,9 +40,9 @@ inline carom_scene default_scene() {
   return scene;
 }
 
-// A world: moved, not copied. What each function does, with units and preconditions, stands at the C function of this
-// name in carom.h. It throws Error where that returns a failure; those that look for something return an empty optional
-// (or false) where there is none.
+// A world; it can be moved, not copied. Each function is described, with units and preconditions, at the C function of
+// the same name in carom.h. It throws Error if that returns a failure; functions that look for something return an
+// empty optional (or false) if there is none.
 class World {
  public:
   static World from_file(const std::string& path, carom_options options = default_options()) {
@@ -73,7 +73,8 @@ class World {
 
   void step(std::uint64_t steps = 1) { check(carom_step(world_, steps)); }
   void run_until(double t) { check(carom_run_until(world_, t)); }
-  // go_on() is called before each step: false ends it, and so does an exception, whose text comes as an Error.
+  // go_on() is called before each step. If it returns false the call ends; if it throws the call ends, too, and throws
+  // an Error with the exception's text.
   template <class GoOn>
   void run_while(double t, GoOn go_on) {
     check(carom_run_while(
@@ -95,7 +96,7 @@ class World {
   double kinetic_energy() const { return carom_kinetic_energy(world_); }
   double potential_energy() const { return carom_potential_energy(world_); }
 
-  // In order of id; the span has room for size() disks (twice as many numbers for positions and velocities).
+  // In order of id; the span has room for size() disks (for positions and velocities twice as many numbers).
   void disks(std::span<carom_disk> out) const { check(carom_disks(world_, out.data(), out.size())); }
   void ids(std::span<std::uint32_t> out) const { check(carom_ids(world_, out.data(), out.size())); }
   void positions(std::span<double> xy) const { check(carom_positions(world_, xy.data(), xy.size() / 2)); }
@@ -109,9 +110,9 @@ class World {
     disks(all);
     return all;
   }
-  // *time, where it is given: the time that they are of.
+  // *time, if given, is set to the time to which the disks belong.
   std::vector<carom_disk> disks_at(double t, double* time = nullptr) const {
-    std::vector<carom_disk> then(size());  // enough unless a sink took some in this step, which are there again
+    std::vector<carom_disk> then(size());  // enough unless a sink took disks in this step, which existed before
     std::size_t count = 0;
     if (carom_disks_at(world_, t, then.data(), then.size(), &count, time) != CAROM_OK) {
       then.resize(count);
@@ -121,7 +122,7 @@ class World {
     return then;
   }
   std::vector<carom_contact> contacts() const {
-    std::vector<carom_contact> met(size());  // mostly enough
+    std::vector<carom_contact> met(size());  // usually enough
     std::size_t count = 0;
     if (carom_contacts(world_, met.data(), met.size(), &count) != CAROM_OK) {
       met.resize(count);
@@ -135,7 +136,7 @@ class World {
     return found(carom_get(world_, id, &disk)) ? std::optional(disk) : std::nullopt;
   }
 
-  // The id of the new disk; empty where there is no room.
+  // The id of the new disk; empty if there is no room.
   std::optional<std::uint32_t> add(const carom_disk& disk) {
     std::uint32_t id = 0;
     const carom_status status = carom_add(world_, &disk, &id);
@@ -146,9 +147,9 @@ class World {
   bool remove(std::uint32_t id) { return found(carom_remove(world_, id)); }
   bool set_velocity(std::uint32_t id, double vx, double vy) { return found(carom_set_velocity(world_, id, vx, vy)); }
 
-  // The ids, ascending, of the disks whose centres lie in the rectangle.
+  // The ids, ascending, of the disks whose centres are in the rectangle.
   std::vector<std::uint32_t> disks_in(double x0, double y0, double x1, double y1) const {
-    std::vector<std::uint32_t> ids(size());  // enough where no disk is fixed: those are seen, but not counted
+    std::vector<std::uint32_t> ids(size());  // enough unless disks are fixed: those are found, but not counted
     std::size_t count = 0;
     if (carom_query_box(world_, x0, y0, x1, y1, ids.data(), ids.size(), &count) != CAROM_OK) {
       ids.resize(count);
@@ -167,10 +168,10 @@ class World {
   }
 
   void save(const std::string& path) const { check(carom_save(world_, path.c_str())); }
-  // Into memory, that of `into` used again.
+  // Saves into memory; that of `into` is used again.
   void save(std::vector<std::byte>& into) const {
     std::size_t size = 0;
-    into.resize(into.capacity() > 0 ? into.capacity() : 1);  // without room only the size is asked for
+    into.resize(into.capacity() > 0 ? into.capacity() : 1);  // without room the call returns only the size
     if (carom_save_memory(world_, into.data(), into.size(), &size) != CAROM_OK) {
       into.resize(size);
       check(carom_save_memory(world_, into.data(), into.size(), &size));

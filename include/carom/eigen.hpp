@@ -1,5 +1,4 @@
-// Disks of a Carom world as Eigen matrices and maps. Needs Eigen 3.3 or later, which the rest of Carom's headers do
-// not.
+// Disks of a Carom world as Eigen matrices and maps. Needs Eigen 3.3 or later; the other headers of Carom do not.
 #ifndef CAROM_EIGEN_HPP
 #define CAROM_EIGEN_HPP
 
@@ -12,7 +11,7 @@ namespace carom {
 inline namespace handle {
 
 // In order of id: 2 x n matrices with a column (x, y) or (vx, vy) for each of the n disks, and a vector of n radii.
-// Length, length / time. Throw Error.
+// Units: length, length / time. Throw Error.
 inline Eigen::Matrix2Xd positions(const World& world) {
   Eigen::Matrix2Xd xy(2, static_cast<Eigen::Index>(world.size()));
   world.positions({xy.data(), static_cast<std::size_t>(xy.size())});
@@ -29,7 +28,7 @@ inline Eigen::VectorXd radii(const World& world) {
   return r;
 }
 
-// One number of each disk of an array, without a copy: column(disks, &carom_disk::vx). Valid as long as the array.
+// One field of each disk of an array, without a copy: column(disks, &carom_disk::vx). Valid as long as the array.
 using DiskColumn = Eigen::Map<const Eigen::ArrayXd, Eigen::Unaligned, Eigen::InnerStride<>>;
 inline DiskColumn column(std::span<const carom_disk> disks, double carom_disk::*number) {
   static_assert(sizeof(carom_disk) % sizeof(double) == 0);
