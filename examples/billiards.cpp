@@ -1,4 +1,4 @@
-// Billiards: a cue ball is aimed along a ray, shot, and what falls into the pockets is taken off the table.
+// Billiards: a cue ball is aimed along a ray and shot, and balls that fall into the pockets are taken off the table.
 #include <carom/carom.hpp>
 #include <cmath>
 #include <cstdio>
@@ -28,7 +28,7 @@ carom::World table() {
   return world;
 }
 
-// Cloth slows every ball by the same deceleration; it is no part of Carom's physics, so the program sets velocities.
+// Cloth slows every ball with the same deceleration. Carom has no such friction, so the program sets the velocities.
 void roll(carom::World& world, std::vector<carom_disk>& balls, double seconds) {
   const double loss = 0.3 * seconds;
   balls.resize(world.size());
@@ -60,14 +60,14 @@ int main() {
   try {
     carom::World world = table();
     const carom_disk cue = world.find(0).value();
-    // The aim begins at the cue ball's edge, so that the ray does not meet the cue ball itself.
+    // The ray starts at the cue ball's edge, so that it does not meet the cue ball itself.
     const double aim_x = 1.0, aim_y = 0.01;
     const auto hit = world.cast_ray(cue.x + 1.01 * radius, cue.y, aim_x, aim_y, 5.0);
     if (hit) std::printf("the aim meets ball %u after %.3f m\n", hit->id, hit->distance);
     world.set_velocity(0, 6.0 * aim_x, 6.0 * aim_y);
     std::vector<carom_disk> balls;
     int pocketed = 0;
-    for (int frame = 0; frame < 600; ++frame) {  // ten steps a frame
+    for (int frame = 0; frame < 600; ++frame) {  // ten steps in a frame
       world.step(10);
       roll(world, balls, 0.01);
       pocketed += take_pocketed(world);

@@ -1,4 +1,4 @@
-/* The smallest use from C: a gas from a scene's text, run for a while, and what came of it. */
+/* The smallest use from C: a gas from a scene's text, run for a while, and its results. */
 #include <carom/carom.h>
 #include <inttypes.h>
 #include <stdio.h>

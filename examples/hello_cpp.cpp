@@ -1,4 +1,4 @@
-// The same in C++: a box made in memory, disks put into it, a few steps.
+// The same in C++: a box made in memory, some disks in it, a few steps.
 #include <carom/carom.hpp>
 #include <cstdio>
 

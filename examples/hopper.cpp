@@ -1,5 +1,5 @@
-// A hopper: disks flow through an opening and leave through the bottom; how many a second, for two openings. Beverloo's
-// law says in two dimensions that the flow grows as (D - k d)^(3/2) with the opening D and the diameter d.
+// A hopper: disks flow through an opening and leave through the bottom; the flow is measured for two openings. In two
+// dimensions Beverloo's law says that the flow grows as (D - k d)^(3/2) with the opening D and the diameter d.
 #include <carom/carom.hpp>
 #include <cmath>
 #include <cstdio>
@@ -7,10 +7,10 @@
 
 namespace {
 
-constexpr double width = 12.0, neck = 8.0;  // the opening's height
+constexpr double width = 12.0, neck = 8.0;  // height of the opening
 constexpr double radius = 0.25;
 
-// A silo of disks above a funnel whose sides fall by 45 degrees.
+// A silo of disks above a funnel whose sides slope at 45 degrees.
 std::string scene_with(double opening) {
   const double half = 0.5 * (width - opening);
   const auto number = [](double x) { return std::to_string(x); };
@@ -23,7 +23,7 @@ std::string scene_with(double opening) {
          "0.002\nt_end = 100.0\n";
 }
 
-// Disks a second between the fiftieth and the two-hundred-fiftieth that leave.
+// Disks per unit of time, from the 50th to the 250th that leaves.
 double flow_through(double opening, unsigned long long& hash) {
   carom::World world = carom::World::from_text(scene_with(opening));
   double first = 0.0;
@@ -42,7 +42,7 @@ int main() {
     unsigned long long hash = 0;
     const double narrow = flow_through(2.0, hash);
     const double wide = flow_through(4.0, hash);
-    const double law = std::pow((4.0 - radius) / (2.0 - radius), 1.5);  // k = 1/2, as disks without friction flow
+    const double law = std::pow((4.0 - radius) / (2.0 - radius), 1.5);  // k = 1/2, the value for disks without friction
     std::printf("%.1f disks a second through 2, %.1f through 4: %.2f times as many; the law says %.2f\n", narrow, wide,
                 wide / narrow, law);
     std::printf("hash %016llx\n", hash);

@@ -1,7 +1,7 @@
-// Rollback netcode: two players steer a disk each in the same world, computed on two machines. Each machine goes on
-// with its guess of the other's input, and when the true input arrives, some frames late, it goes back to the frame
-// that the input was for and computes again. The worlds agree in every bit, which the hashes show: only inputs are
-// sent.
+// Rollback netcode: two players each steer a disk in the same world, computed on two machines. Each machine goes on
+// with a guess of the other player's input. When the true input arrives, some frames late, the machine goes back to the
+// frame to which the input belongs, and computes again. The worlds agree in every bit, as the hashes show; only inputs
+// are sent.
 #include <array>
 #include <carom/carom.hpp>
 #include <cstdio>
@@ -9,13 +9,13 @@
 
 namespace {
 
-constexpr int frames = 300, delay = 6;  // of the network, in frames
+constexpr int frames = 300, delay = 6;  // delay of the network, in frames
 
 struct Input {
   double vx = 0.0, vy = 0.0;
 };
 
-// What a player does: a new velocity every 25 frames.
+// A player's input: a new velocity every 25 frames.
 Input input_of(int player, int frame) {
   const int turn = frame / 25 + 3 * player;
   return {static_cast<double>(turn % 5 - 2), static_cast<double>((3 * turn) % 7 - 3)};
@@ -39,7 +39,7 @@ class Machine {
  public:
   explicit Machine(int player) : player_(player), world_(arena()) {}
 
-  // Frame `now` is the next; the other's input of frame now - delay has just arrived.
+  // Computes frame `now`; the other's input of frame now - delay has just arrived.
   void advance(int now) {
     const int arrived = now - delay;
     if (arrived >= 0) {
@@ -60,7 +60,7 @@ class Machine {
  private:
   static std::size_t slot(int frame) { return static_cast<std::size_t>(frame % (delay + 1)); }
 
-  // The other goes on as it was last known to.
+  // The guess is that the other goes on with the last known input.
   Input guess(int frame) const { return known_ < 0 ? Input{} : input_of(1 - player_, frame < known_ ? frame : known_); }
 
   void compute(int frame) {
@@ -79,7 +79,7 @@ class Machine {
 
   int player_;
   carom::World world_;
-  int known_ = -1;  // the last frame whose input by the other has arrived
+  int known_ = -1;  // the last frame for which the other's input has arrived
   int rollbacks_ = 0;
   std::array<std::vector<std::byte>, delay + 1> saved_;  // the world before each of the last frames
   std::array<Input, delay + 1> used_{};
