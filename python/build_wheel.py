@@ -1,5 +1,5 @@
-"""The PEP 517 backend of `pip install .`: CMake builds the compiled part, and this packs the wheel. No network, and
-nothing but Python's own library."""
+"""The PEP 517 backend of `pip install .`: CMake builds the compiled part, and this module packs the wheel. It needs no
+network, and only Python's own library."""
 
 import base64
 import hashlib
@@ -17,7 +17,7 @@ build = root / "build" / f"pip-{sys.implementation.cache_tag}"
 
 
 def _project() -> dict:
-    """Name, version and so on from pyproject.toml, of which Python before 3.11 reads no more than single strings."""
+    """Name, version and so on from pyproject.toml. Without tomllib, before Python 3.11, only plain strings are read."""
     text = (root / "pyproject.toml").read_text()
     return dict(re.findall(r'^(name|version|description|requires-python) = "(.*)"$', text, re.MULTILINE))
 
@@ -34,7 +34,7 @@ def _tag() -> str:
 
 
 def _compile() -> list:
-    """The files of the built package: of those that the sources have, as the folder also keeps what earlier ones had."""
+    """The files of the built package that belong to the sources; the folder may still have files of earlier sources."""
     generator = ["-G", "Ninja"] if not (build / "CMakeCache.txt").exists() else []
     subprocess.run(["cmake", "-S", str(root), "-B", str(build), *generator, "-DCMAKE_BUILD_TYPE=Release",
                     "-DCAROM_PYTHON=ON", "-DCAROM_PROGRAM=OFF", "-DCAROM_LIBRARY=OFF", "-DBUILD_TESTING=OFF",
@@ -73,7 +73,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
 
 
 def build_sdist(sdist_directory, config_settings=None):
-    """What git knows of, as it lies there."""
+    """The files known to git, as they are now."""
     project = _project()
     name = f"{project['name']}-{project['version']}"
     listed = subprocess.run(["git", "-C", str(root), "ls-files", "-z"], check=True, capture_output=True).stdout

@@ -1,4 +1,4 @@
-// Python's lock, given up while the engine works and taken again to speak with Python.
+// Python's interpreter lock, released while the engine works and taken again for calls into Python.
 #pragma once
 
 #include <Python.h>
@@ -14,20 +14,20 @@ inline bool python_is_ending() {
 #endif
 }
 
-// A daemon thread may still be at work when Python ends. Were it to ask for the lock, Python would end it as if by
-// pthread_exit, and the whole process with it, since no loop of the engine can be left so. It waits for the process's
-// end here instead.
+// When Python ends a daemon thread may still be at work. If it asked for the lock, Python would end it as if by
+// pthread_exit, and with it the whole process, since the loops of the engine cannot be left in this way. So it waits
+// here for the end of the process.
 inline void stay_if_python_is_ending() {
   while (python_is_ending()) ::pause();
 }
 
-// As long as it lives, other threads run Python.
+// During its life other threads run Python.
 class LockGivenUp {
  public:
   LockGivenUp() : state_(PyEval_SaveThread()) {}
   LockGivenUp(const LockGivenUp&) = delete;
   LockGivenUp& operator=(const LockGivenUp&) = delete;
-  // Lets pthread_exit through, should Python begin to end while this waits for the lock.
+  // Lets pthread_exit through, in case Python begins to end while this waits for the lock.
   ~LockGivenUp() noexcept(false) {
     stay_if_python_is_ending();
     PyEval_RestoreThread(state_);
@@ -37,7 +37,7 @@ class LockGivenUp {
   PyThreadState* state_;
 };
 
-// As long as it lives, this thread may speak with Python. It has given up the lock before.
+// During its life this thread, which has released the lock before, may call Python.
 class LockTaken {
  public:
   LockTaken() {

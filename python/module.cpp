@@ -1,5 +1,5 @@
 // The compiled part of the Python module: carom::Simulation, carom::run and readers of trajectories, with columns as
-// numpy arrays. What a user sees is in carom/__init__.py.
+// numpy arrays. The interface for users is in carom/__init__.py.
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -37,13 +37,13 @@ namespace {
 
 using Changes = std::vector<std::pair<std::string, std::string>>;
 
-// A column of its own.
+// A column, copied.
 template <class T>
 py::array_t<T> copied(const std::vector<T>& column) {
   return py::array_t<T>(static_cast<py::ssize_t>(column.size()), column.data());
 }
 
-// One number for all disks, as a column.
+// A column with one number for all disks.
 py::array_t<double> repeated(std::size_t n, double value) {
   py::array_t<double> column(static_cast<py::ssize_t>(n));
   std::fill_n(column.mutable_data(), n, value);
@@ -54,7 +54,7 @@ py::array_t<double> size_column(const std::vector<double>& column, std::size_t n
   return column.empty() ? repeated(n, common) : copied(column);
 }
 
-// spins: of rough disks, none of which may be there.
+// spins: include the column of spins; the disks are rough, but there may be none of them.
 py::dict columns_of(const Disks& d, bool spins) {
   py::dict columns;
   columns["x"] = copied(d.x);
@@ -68,7 +68,7 @@ py::dict columns_of(const Disks& d, bool spins) {
   return columns;
 }
 
-// Of disks of a simulation: those of its trajectory, but for the rounds.
+// For disks of a simulation: the columns of its trajectory, without rounds.
 py::dict columns_of(const Disks& d, const Scene& scene) {
   py::dict columns = columns_of(d, d.spins());
   if (!has_several_groups(scene)) return columns;
@@ -90,13 +90,13 @@ std::vector<Override> overrides_of(const Changes& changes) {
   return overrides;
 }
 
-// Has the user pressed Ctrl-C? On the thread that holds the interpreter's lock.
+// Has the user pressed Ctrl-C? To be called by the thread that holds the interpreter's lock.
 bool interrupted() {
   return PyErr_CheckSignals() != 0;
 }
 
-// Ctrl-C ends the placing or a growth of the disks by what this throws. The interpreter's lock, which another thread
-// may hold for a while, is asked for a few times a second.
+// Ctrl-C ends the placing or growth of disks by the exception thrown here. The interpreter's lock, which another thread
+// may hold for a while, is taken a few times a second.
 auto growth_watch() {
   return [last = WallClock::now()](const GrowthProgress&) mutable {
     constexpr double between_looks = 0.05;
@@ -107,8 +107,8 @@ auto growth_watch() {
   };
 }
 
-// A simulation, and how many arrays show its columns as they lie in memory: while there is one, nothing may change.
-// While it steps, without the interpreter's lock, other threads must not even look at it, as its disks are moving.
+// A simulation, and the number of arrays that show its columns in place: while there is one, nothing may change. While
+// the simulation steps, without the interpreter's lock, its disks move, so other threads must not even look at it.
 class PySimulation {
  public:
   explicit PySimulation(Simulation simulation) : simulation_(std::move(simulation)) {}
@@ -119,7 +119,7 @@ class PySimulation {
     return simulation_;
   }
 
-  std::vector<std::string> take_warnings() {  // changes no disk
+  std::vector<std::string> take_warnings() {  // does not change disks
     check_at_rest();
     return simulation_.take_warnings();
   }
@@ -132,10 +132,11 @@ class PySimulation {
     return simulation_;
   }
 
-  // Steps for a while, or so many, or until t; returns the steps made. Python looks at signals in between.
+  // Makes steps for some time, or this number of steps, or until t; returns the number of steps made. Python handles
+  // signals in between.
   Count step_for(Count n, double t, double seconds) {
     Simulation& s = change();
-    const Stepping now(*this);  // it ends when this thread has the lock again
+    const Stepping now(*this);  // ends when this thread has the lock again
     const LockGivenUp free;
     const WallClock::time_point start = WallClock::now();
     Count made = 0;
@@ -183,25 +184,25 @@ class PySimulation {
     throw std::runtime_error("the simulation is in a step of another thread; one thread at a time can use it");
   }
 
-  // Every array holds one. As long as it lives it counts, and keeps the simulation, whose memory the array shows: the
-  // names that a program has for the simulation may be gone before.
+  // Every array holds a guard, which counts the array and keeps the simulation, whose memory the array shows, alive:
+  // the program's names for the simulation may be gone earlier.
   static py::capsule guard(const py::object& self) {
     auto owner = std::make_unique<py::object>(self);
     py::capsule capsule(owner.get(), [](void* held) {
       const std::unique_ptr<py::object> shown(static_cast<py::object*>(held));
       --shown->cast<PySimulation&>().views_;
     });
-    static_cast<void>(owner.release());  // the capsule has it now
+    static_cast<void>(owner.release());  // the capsule owns it now
     ++self.cast<PySimulation&>().views_;
     return capsule;
   }
 
   Simulation simulation_;
-  int views_ = 0;          // arrays that show it
+  int views_ = 0;          // number of arrays that show columns
   bool stepping_ = false;  // in step_for now
 };
 
-// A picture as `carom render` draws it, into a PNG file.
+// Draws a picture like `carom render`, into a PNG file.
 void paint(const PySimulation& s, const std::string& file) {
   const Simulation& look = s.look();
   const PictureLook usual;
@@ -210,8 +211,9 @@ void paint(const PySimulation& s, const std::string& file) {
   painter.write_png(file);
 }
 
-// What `carom run` does, with what it says handed to Python. Returns the summary as JSON, the folder, and what pictures
-// were lost. What a signal raises ends the run as Ctrl-C does, with its checkpoint, and is thrown then.
+// Does what `carom run` does, with messages handed to Python. Returns the summary as JSON, the folder, and the names of
+// pictures that were lost. An exception raised by a signal ends the run like Ctrl-C, with a checkpoint, and is then
+// thrown.
 py::tuple run_scene(const Scene& scene, const std::optional<std::string>& folder, const std::string& engine,
                     std::optional<int> threads, bool force, bool strict, const py::function& say) {
   RunSettings settings;
@@ -222,7 +224,7 @@ py::tuple run_scene(const Scene& scene, const std::optional<std::string>& folder
     check_output_folder(*folder, scene.file, force);
     settings.folder = *folder;
   }
-  std::optional<py::error_already_set> raised;  // KeyboardInterrupt, or what a handler of the program's own raises
+  std::optional<py::error_already_set> raised;  // KeyboardInterrupt, or the exception of a handler of the program
   settings.listener.growth = growth_watch();
   settings.listener.warning = [&](std::string_view text) {
     const LockTaken lock;
@@ -242,7 +244,7 @@ py::tuple run_scene(const Scene& scene, const std::optional<std::string>& folder
   return py::make_tuple(json_text(outcome.summary), outcome.folder, outcome.lost_pictures);
 }
 
-// What `carom view` does. Returns what the page leaves out, sentences.
+// Does what `carom view` does. Returns sentences about what the page leaves out.
 std::vector<std::string> write_page(const std::string& source, const std::string& file,
                                     std::optional<std::size_t> most_bytes, bool force) {
   const LockGivenUp free;
@@ -254,7 +256,7 @@ std::vector<std::string> write_page(const std::string& source, const std::string
   return write_view(file, recording, settings).left_out;
 }
 
-// A reader's next frame, or None.
+// The next frame of a reader, or None.
 py::object next_frame(TrajectoryReader& reader) {
   TrajectoryFrame frame;
   bool there = false;
@@ -294,7 +296,7 @@ void bind_scene(py::module_& m) {
         });
 }
 
-// What is where, now: disks in a rectangle, the nearest one, what a ray meets first.
+// Queries of the present state: disks in a rectangle, the nearest disk, the first object that a ray meets.
 void bind_queries(py::class_<PySimulation>& simulation) {
   simulation
       .def("disks_in",
@@ -380,7 +382,7 @@ PYBIND11_MODULE(_carom, m) {
   using namespace carom;
   PYBIND11_NUMPY_DTYPE(DiskContact, id1, id2, time);
   m.doc() = "The compiled part of carom.";
-  // Later ones are asked first.
+  // Translators registered later are tried first.
   py::register_exception<RunError>(m, "RunError", PyExc_OSError);
   py::register_exception<PhysicsError>(m, "PhysicsError", PyExc_RuntimeError);
   py::register_exception<InputError>(m, "SceneError", PyExc_ValueError);

@@ -1,7 +1,7 @@
-"""Hard disks in a rectangle: event-driven, time-stepping, the same bits on any number of threads.
+"""Hard disks in a rectangle: event-driven or time-stepping, with the same bits on any number of threads.
 
-Lengths, times and masses are in the scene's own units. A scene is what docs/scene.md of Carom describes, from a file or
-as a dictionary; the results are those of the command line, to the last bit.
+Lengths, times and masses are in the scene's own units. Scenes are described in docs/scene.md of Carom; they come from a
+file or a dictionary. The results are those of the command line, to the last bit.
 """
 
 from . import _carom
@@ -20,6 +20,6 @@ SceneError.__doc__ = """A bad scene, argument or file: one line, with the file, 
 PhysicsError.__doc__ = """The method cannot go on: a step far too long, an inelastic collapse, a warning with strict=True."""
 RunError.__doc__ = """The machine failed: a full disk, a plot that could not be drawn."""
 
-# Each is of this package, wherever it is written: in messages, help() and pickles.
+# Everything belongs to this package, wherever it is defined: in messages, help() and pickles.
 for _class in (Scene, Simulation, Result, Column, Trajectory, Frame, Disks, View, Hit, SceneError, PhysicsError, RunError):
     _class.__module__ = __name__

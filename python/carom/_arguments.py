@@ -1,4 +1,4 @@
-"""Arguments of calls as the compiled module takes them, and what is said of those that it does not take."""
+"""Arguments of calls, converted for the compiled module, and the errors for those that it does not take."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from ._carom import SceneError
 
 AnyPath = Union[str, bytes, os.PathLike]
 
-_most_threads = 4096  # as carom.h
+_most_threads = 4096  # as in carom.h
 _last_id = 2**32 - 1  # ids have 32 bits
 
 
 def path(value) -> str:
-    """A path as text. Raises ValueError for one that cannot be text: a null character would end it early, in silence."""
+    """A path as text. Raises ValueError for a path with a null character, which would silently end it early."""
     text = os.fsdecode(value)
     if "\0" in text or not _is_unicode(text):
         raise ValueError(f"the path is {text!r}; expected one in UTF-8, without null characters")
@@ -32,7 +32,7 @@ def text(value, what: str) -> str:
 
 
 def threads(value):
-    """None: as many as there are cores. Raises SceneError."""
+    """None means as many as there are cores. Raises SceneError."""
     if value is None:
         return None
     value = operator.index(value)
@@ -42,7 +42,7 @@ def threads(value):
 
 
 def disk_id(value) -> int:
-    """Raises ValueError for a number that no disk can have, as -1."""
+    """Raises ValueError for a number that cannot be the id of a disk, such as -1."""
     value = operator.index(value)
     if not 0 <= value <= _last_id:
         raise ValueError(f"id is {value}; expected a whole number from 0 to {_last_id}")
@@ -50,7 +50,7 @@ def disk_id(value) -> int:
 
 
 def size(value, name: str):
-    """A whole number above 0, as of bytes or of processes; or None."""
+    """A whole number above 0, for example of bytes or processes; or None."""
     if value is None:
         return None
     value = operator.index(value)
@@ -60,21 +60,21 @@ def size(value, name: str):
 
 
 def flag(value, name: str) -> bool:
-    """What Python itself takes for true or false; but no text, of which "no" would be true. Raises TypeError."""
+    """Anything that Python takes for true or false, except text, of which "no" would be true. Raises TypeError."""
     if not hasattr(value, "__bool__"):
         raise TypeError(f"{name} is {_named(value)}; expected True or False")
     return bool(value)
 
 
 def function(value, of: str):
-    """Raises TypeError for what cannot be called."""
+    """Raises TypeError if it cannot be called."""
     if not callable(value):
         raise TypeError(f"expected a function of {of}, not {type(value).__name__}")
     return value
 
 
 def no_numbers(**arguments) -> Exception:
-    """What to raise when the compiled module has refused one of these as a number."""
+    """The error to raise if the compiled module has refused one of these as a number."""
     for name, value in arguments.items():
         try:
             if isinstance(value, (str, bytes)):

@@ -1,4 +1,4 @@
-"""Disks as numpy columns: copies, frames, and views of what the engine has in memory."""
+"""Disks as numpy columns: copies, frames, and views of the engine's memory."""
 
 from typing import Any, Mapping, NamedTuple, Tuple
 
@@ -8,8 +8,8 @@ from . import _export
 
 
 class Disks:
-    """Disks as columns, numpy arrays of shape (n,): x, y (length), vx, vy (length / time), radius, mass, id; spin
-    (1 / time, counter-clockwise) where they are rough."""
+    """Disks as columns, numpy arrays of shape (n,): x, y (length), vx, vy (length / time), radius, mass, id; and spin
+    (1 / time, counter-clockwise) if they are rough."""
 
     x: np.ndarray
     y: np.ndarray
@@ -20,7 +20,7 @@ class Disks:
     id: np.ndarray
     spin: np.ndarray
     t: float  # simulated time
-    names: Tuple[str, ...]  # of the columns that there are
+    names: Tuple[str, ...]  # names of the columns that exist
 
     def __init__(self, columns: Mapping[str, np.ndarray], t: float):
         self.__dict__.update(columns)
@@ -31,7 +31,7 @@ class Disks:
         return len(self.x)
 
     def positions3d(self) -> np.ndarray:
-        """Centres as float64 of shape (n, 3), z = 0: as freud, ASE and MDAnalysis want them."""
+        """Centres as float64 of shape (n, 3), z = 0, for freud, ASE and MDAnalysis."""
         return np.column_stack([self.x, self.y, np.zeros(len(self))])
 
     def __repr__(self):
@@ -39,11 +39,11 @@ class Disks:
 
 
 class Frame(Disks):
-    """Disks in order of id, and the box. group, where there are several: the [[disks]] block, counted from 0, one more for
-    disks from sources and those of Simulation.add. Of a trajectory, with image_x and image_y where its file has them: the
-    rounds across periodic sides since the first frame. Unwrapped, a disk is at x + image_x * box[0].
+    """Disks in order of id, and the box. group, if there are several: the [[disks]] table, counted from 0; for disks
+    from sources and from Simulation.add the number of tables. Frames of a trajectory may have image_x and image_y: the
+    rounds across periodic sides since the first frame. The unwrapped position of a disk is x + image_x * box[0].
 
-    to_ase, to_freud and to_gsd make what these programs take.
+    to_ase, to_freud and to_gsd convert a frame for these programs.
     """
 
     box: Tuple[float, float]  # length
@@ -58,23 +58,25 @@ class Frame(Disks):
         self.periodic = (periodic_x, periodic_y)
 
     def to_ase(self) -> Any:
-        """ase.Atoms: positions (z = 0), masses, velocities, periodic sides; radius and id as arrays of these names."""
+        """An ase.Atoms object: positions (z = 0), masses, velocities, periodic sides; radius and id as arrays of these
+        names."""
         return _export.ase_atoms(self)
 
     def to_freud(self) -> tuple:
-        """(box, points) for freud.*.compute: two lengths, and float32 of shape (n, 3) around the middle of the box. freud
-        takes all sides as periodic, unless its box is told otherwise."""
+        """(box, points) for freud.*.compute: two lengths, and float32 of shape (n, 3) relative to the middle of the
+        box. freud takes all sides as periodic, unless its box says otherwise."""
         return _export.freud_system(self)
 
     def to_gsd(self) -> Any:
-        """A snapshot of gsd.hoomd, in two dimensions and around the middle of the box, with diameters, masses and images (of
-        a trajectory's frames, where a side is periodic); HOOMD, freud and OVITO take it. Its step is 0: GSD has no times."""
+        """A snapshot of gsd.hoomd, two-dimensional and relative to the middle of the box, with diameters, masses and
+        images (for frames of a trajectory with a periodic side); HOOMD, freud and OVITO accept it. Its step is 0, as
+        GSD has no times."""
         return _export.gsd_snapshot(self)
 
 
 class Hit(NamedTuple):
-    """What a ray meets: the disk's id, the distance along the ray to its edge, and the place there (length). what: "disk",
-    or "wall" or "sink" of an inner wall, whose id is the number of its table in [[walls]]."""
+    """The first object on a ray: the disk's id, the distance along the ray to its edge, and the point there (length).
+    what: "disk", or for an inner wall "wall" or "sink"; then id is the number of its table in [[walls]]."""
 
     id: int
     distance: float
@@ -84,14 +86,14 @@ class Hit(NamedTuple):
 
 
 class View:
-    """The columns as they lie in memory: no copies, read-only, in an order that any step may change."""
+    """The columns in the engine's memory: not copied, read-only, and in an order that any step may change."""
 
     def __init__(self, columns):
         self._columns = columns
 
     def __getattr__(self, name):
         if name.startswith("__"):
-            raise AttributeError(name)  # what copies and pickles ask for, before there are columns
+            raise AttributeError(name)  # copies and pickles ask for it before there are columns
         columns = self._columns
         if columns is None:
             raise RuntimeError("the view is closed")
@@ -106,5 +108,5 @@ class View:
         self.close()
 
     def close(self) -> None:
-        """Ends the view, as the end of `with` does; the simulation can go on when no array of it is left either."""
+        """Ends the view, as the end of `with` does. The simulation can go on when none of its arrays is left either."""
         self._columns = None

@@ -1,4 +1,5 @@
-"""Frames as other programs take them: ASE, freud, GSD (HOOMD, OVITO), MDAnalysis. Each is imported when it is asked for."""
+"""Frames for other programs: ASE, freud, GSD (HOOMD, OVITO), MDAnalysis. Each of these is imported when it is
+needed."""
 
 from __future__ import annotations
 
@@ -16,10 +17,10 @@ def _velocities3d(frame) -> np.ndarray:
 
 
 def _around_middle(frame) -> np.ndarray:
-    """float32, as these programs compute: coordinates from -half to half, the upper end left out."""
+    """float32, as these programs use: coordinates from -half to half, without the upper end."""
     half = 0.5 * np.array([*frame.box, 0.0])
     points = (frame.positions3d() - half).astype(np.float32)
-    for axis in range(2):  # rounding may put one on the edge
+    for axis in range(2):  # rounding may put a coordinate exactly at the end
         column = points[:, axis]
         column[column >= np.float32(half[axis])] = np.nextafter(np.float32(half[axis]), np.float32(0.0))
     return points
@@ -32,7 +33,7 @@ def ase_atoms(frame):
                       cell=[*frame.box, 0.0], pbc=[*frame.periodic, False])
     atoms.set_velocities(_velocities3d(frame))
     atoms.new_array("radius", frame.radius)
-    atoms.new_array("id", frame.id.astype(np.int64))  # of unsigned numbers ASE writes no file
+    atoms.new_array("id", frame.id.astype(np.int64))  # with unsigned numbers ASE cannot write a file
     atoms.info["Time"] = frame.t
     return atoms
 
@@ -44,7 +45,7 @@ def freud_system(frame) -> tuple:
 def gsd_snapshot(frame):
     import gsd.hoomd
 
-    # Frame since version 2.8.
+    # The class is called Frame since version 2.8.
     snapshot = getattr(gsd.hoomd, "Frame", getattr(gsd.hoomd, "Snapshot", None))()
     snapshot.configuration.step = 0
     snapshot.configuration.dimensions = 2
@@ -69,12 +70,12 @@ def write_gsd(path, frames, force) -> None:
     path, force = _arguments.path(path), _arguments.flag(force, "force")
     if os.path.isfile(path) and not force:
         raise SceneError(f"{path}: exists already; choose another file, or replace it with force=True")
-    if os.path.exists(path) and not os.path.isfile(path):  # a folder, and a device, which all programs share, stay
+    if os.path.exists(path) and not os.path.isfile(path):  # a folder stays, and so does a device, which all programs share
         raise IsADirectoryError(errno.EISDIR, "is no file", path)
-    # What fails on the way leaves what was there before.
+    # If writing fails the earlier file stays.
     place = os.path.realpath(path)
     beside = place + ".new"
-    with open(beside, "wb"):  # says why it cannot be written; gsd would call it a bad file descriptor
+    with open(beside, "wb"):  # says why the file cannot be written; gsd would report a bad file descriptor
         pass
     try:
         with gsd.hoomd.open(beside, "wb") as file:

@@ -1,4 +1,4 @@
-"""What notebooks show."""
+"""Pages and pictures in notebooks."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ._text import in_words_of_python
 
 
 class Page:
-    """A page that a notebook shows by itself, apart from its own."""
+    """A page that a notebook shows in a frame of its own, apart from the notebook's page."""
 
     def __init__(self, text: str):
         self.text = text
@@ -30,7 +30,7 @@ def _in_notebook() -> bool:
 
 
 def show(trajectory: str, folder: str, file, most_bytes, force):
-    """The viewer's page: in a notebook a Page; else written, to the folder where no file is given, and opened."""
+    """The viewer's page: in a notebook a Page; otherwise written to a file, by default in the folder, and opened."""
     most_bytes = _arguments.size(most_bytes, "max_size")
     force = _arguments.flag(force, "force")
     if file is None and _in_notebook():
@@ -54,5 +54,5 @@ def table(rows: dict) -> str:
 
 
 def image(kind: str, content: bytes) -> str:
-    """kind: png or svg+xml. As an image an SVG runs no scripts, and its ids are its own."""
+    """kind: png or svg+xml. As an image an SVG runs no scripts, and its ids cannot clash with others."""
     return f'<img style="max-width: 100%" src="data:image/{kind};base64,{base64.b64encode(content).decode()}"/>'

@@ -1,4 +1,4 @@
-"""What a run leaves: its summary, columns, frames and plots."""
+"""The results of a run: its summary, columns, frames and plots."""
 
 from __future__ import annotations
 
@@ -16,22 +16,22 @@ from ._disks import Frame
 
 
 class Trajectory:
-    """The frames of trajectory.xyz or trajectory.h5, read one by one as they are asked for.
+    """The frames of trajectory.xyz or trajectory.h5, read one by one when they are used.
 
-    path: the file, or the folder of a run, also of one that goes on: each use sees the frames that are there by then. Where
-    another run takes the place of an earlier one (force=True), these are the earlier one's until it is done, and a loop that
-    has begun ends with them. len() and [k] pass over the frames up to there; [1:3] is a list of frames. Raises SceneError
-    where there is none, or it is damaged.
+    path: the file, or the folder of a run, which may still be going on: each use sees the frames written so far. If
+    another run replaces an earlier one (force=True), these are the earlier frames until it is done, and a loop that has
+    begun ends with them. len() and [k] skip frames without reading them; [1:3] is a list of frames. Raises SceneError
+    if there is no trajectory, or it is damaged.
     """
 
     def __init__(self, path: _arguments.AnyPath):
         self._path = _arguments.path(path)
-        self._counted = (None, 0)  # the file as it was, and its frames
+        self._counted = (None, 0)  # the state of the file, and the number of its frames then
         _carom.open_trajectory(self.file)
 
     @property
     def file(self) -> str:
-        """With the frames; while a run goes on, in carom-unfinished of its folder."""
+        """The file with the frames; while a run is going on it is in carom-unfinished of its folder."""
         path = self._path
         if not os.path.exists(path):
             raise SceneError(f"{path}: does not exist; expected a folder of a run, or a trajectory")
@@ -76,7 +76,7 @@ class Trajectory:
         return found[wanted]
 
     def _frames(self, wanted: Sequence[int]) -> dict:
-        """Those of these numbers that there are; others are passed over, which takes less than to read them."""
+        """The frames with these numbers that exist; others are skipped, which is faster than reading them."""
         reader = _carom.open_trajectory(self.file)
         found = {}
         for n in range(max(wanted, default=-1) + 1):
@@ -90,27 +90,27 @@ class Trajectory:
         return found
 
     def show(self, file: Optional[_arguments.AnyPath] = None, max_size: Optional[int] = None, force: bool = False) -> Any:
-        """The viewer, as `carom view` makes it: one HTML page that plays the run, of at most max_size bytes.
+        """The viewer, as made by `carom view`: an HTML page that plays the run, of at most max_size bytes.
 
-        In a notebook it is shown there. Elsewhere it is written to file (view.html in the run's folder, or where the
-        trajectory lies) and opened in a browser; with file given it is only written. Raises SceneError where the file's name does not end
-        in .html, or it exists already: force replaces it.
+        In a notebook it is shown there. Elsewhere it is written to file (by default view.html in the run's folder, or
+        beside the trajectory) and opened in a browser; if file is given it is only written. Raises SceneError if the
+        file's name does not end in .html, or if the file exists: force replaces it.
         """
         folder = self._path if os.path.isdir(self._path) else os.path.dirname(self._path)
         return _notebook.show(self.file, folder, file, max_size, force)
 
     def to_ase(self) -> list:
-        """An ase.Atoms a frame, as Frame.to_ase."""
+        """An ase.Atoms object for each frame, as Frame.to_ase."""
         return [frame.to_ase() for frame in self]
 
     def to_mdanalysis(self) -> Any:
-        """An MDAnalysis.Universe with all frames in memory: positions, velocities, times, box (its height in z is 1), masses,
-        radii. Raises ValueError where frames have different disks."""
+        """An MDAnalysis.Universe with all frames in memory: positions, velocities, times, box (its height along z is
+        1), masses, radii. Raises ValueError if frames have different disks."""
         return _export.mdanalysis_universe(self)
 
     def to_gsd(self, path: _arguments.AnyPath, force: bool = False) -> None:
-        """Writes a GSD file, a snapshot a frame as Frame.to_gsd; the step is the frame's number. Raises SceneError where the
-        file exists: force replaces it."""
+        """Writes a GSD file with a snapshot for each frame, as Frame.to_gsd; the step is the frame's number. Raises
+        SceneError if the file exists: force replaces it."""
         _export.write_gsd(path, self, force)
 
     def __repr__(self):
@@ -118,7 +118,7 @@ class Trajectory:
 
 
 class Column(np.ndarray):
-    """A numpy column from a file, with what the file says of it: attributes (a dictionary), unit, and of a series its
+    """A numpy column from a file, with its properties there: attributes (a dictionary), unit, and for a series
     standard_error, that of its mean by blocking, or None."""
 
     def __new__(cls, values, attributes: Mapping[str, Any] = {}):
@@ -127,7 +127,7 @@ class Column(np.ndarray):
         return column
 
     def __array_finalize__(self, other):
-        self.attributes = {}  # what is computed from a column has others
+        self.attributes = {}  # arrays computed from a column have no attributes of the file
 
     def __reduce__(self):
         return Column, (np.asarray(self), self.attributes)
@@ -140,18 +140,18 @@ class Column(np.ndarray):
 
     @property
     def unit(self) -> Optional[str]:
-        """Such as "time" or "length"; None where the file has none."""
+        """For example "time" or "length"; None if the file has no unit."""
         return self.attributes.get("unit")
 
     @property
     def standard_error(self) -> Optional[float]:
-        """Of the mean, or None."""
+        """That of the mean, or None."""
         return self.attributes.get("standard_error")
 
 
 def _attributes(item) -> dict:
-    """Those of a data set and of its group. A group's mean is that of its value, and not of the intervals beside it; where it
-    has several series, NAME_mean is the mean of its NAME."""
+    """The attributes of a data set and of its group. The mean of a group is that of its value, not of the intervals
+    beside it; if the group has several series, NAME_mean is the mean of NAME."""
     name = item.name.rsplit("/", 1)[1]
     of_value = () if name == "value" else ("mean", "standard_deviation", "standard_error")
     own = {key: v for key, v in item.parent.attrs.items() if key not in of_value} | dict(item.attrs)
@@ -160,12 +160,12 @@ def _attributes(item) -> dict:
 
 
 _kinds = {str: "a text", int: "a whole number", (int, float): "a number"}
-# What a Result shows of every summary, and what it is there.
+# The figures of a summary that the text of a Result shows, with their names there.
 _always_there = {"state_hash": str, "particles": int, "time": (int, float), "collisions": int}
 
 
 class Result:
-    """What a run came to. summary: the keys of `carom run --json`; folder: of its files, or None."""
+    """The results of a run. summary: the keys of `carom run --json`; folder: that of its files, or None."""
 
     def __init__(self, summary: Mapping[str, Any], folder: Optional[str]):
         self.summary = dict(summary)
@@ -173,7 +173,8 @@ class Result:
 
     @classmethod
     def load(cls, folder: _arguments.AnyPath) -> "Result":
-        """That of a run that is done, by `carom run`, a sweep or carom.run. Raises SceneError where the folder holds none."""
+        """The result of a finished run, by `carom run`, a sweep or carom.run. Raises SceneError if the folder has
+        none."""
         folder = _arguments.path(folder)
         file = os.path.join(folder, "summary.json")
         try:
@@ -189,7 +190,7 @@ class Result:
 
     @property
     def hash(self) -> str:
-        """16 hexadecimal digits."""
+        """The state_hash, 16 hexadecimal digits."""
         return self.summary["state_hash"]
 
     def _file(self, name):
@@ -199,14 +200,15 @@ class Result:
 
     @property
     def series(self) -> dict:
-        """Columns of series.csv by name, float64 of shape (frames,). Raises SceneError where there is none, or it is damaged."""
+        """The columns of series.csv by name, float64 of shape (frames,). Raises SceneError if there is no such file, or
+        it is damaged."""
         path = self._file("series.csv")
         if not os.path.exists(path):
             raise SceneError(f"{path}: is not there; expected a scene with series = true in [output]")
         damaged = SceneError(f"{path}: has no heading, or rows of other columns than that; expected series.csv of a run")
         with open(path, encoding="utf-8", errors="replace") as text:
             if not text.readline().strip():
-                raise damaged  # numpy would warn of it, and go on without names
+                raise damaged  # numpy would only warn of this, and go on without names
         try:
             table = np.genfromtxt(path, delimiter=",", names=True, deletechars="", ndmin=1)
         except (ValueError, IndexError):
@@ -220,9 +222,9 @@ class Result:
 
     @property
     def analysis(self) -> dict:
-        """The data sets of analysis.h5 by their paths, a Column each (needs h5py). A column's attributes are its own and
-        those of its group: mean and standard_error of a series, diffusion, diffusion_error, samples, ..., as docs/output.md
-        lists them. Raises SceneError where there is none, or it is damaged."""
+        """The data sets of analysis.h5 by their paths, each a Column (needs h5py). The attributes of a column are its
+        own and those of its group: mean and standard_error of a series, diffusion, diffusion_error, samples, ..., as
+        listed in docs/output.md. Raises SceneError if there is no such file, or it is damaged."""
         import h5py
 
         path = self._file("analysis.h5")
@@ -237,7 +239,7 @@ class Result:
         try:
             with h5py.File(path) as file:
                 file.visititems(take)
-        except (OSError, RuntimeError, ValueError) as error:  # as h5py calls what HDF5 finds wrong
+        except (OSError, RuntimeError, ValueError) as error:  # the exceptions of h5py for errors found by HDF5
             reason = str(error).partition("\n")[0]
             raise SceneError(f"{path}: cannot be read: {reason}; expected analysis.h5 of a run") from None
         return columns
@@ -252,7 +254,7 @@ class Result:
 
     @property
     def plots(self) -> dict:
-        """The plots that the scene asked for, by name: the text of an SVG file each."""
+        """The plots that the scene asked for, by name: the text of an SVG file for each."""
         if self.folder is None:
             return {}
         files = sorted(pathlib.Path(self.folder).glob("*.svg"))

@@ -19,13 +19,13 @@ from ._text import in_words_of_python as _in_words_of_python, words_of_python as
 
 def run(scene: Scene, out: Optional[_arguments.AnyPath] = None, threads: Optional[int] = None, engine: str = "parallel",
         force: bool = False, strict: bool = False, warn: Optional[Callable[[str], Any]] = None) -> Result:
-    """The whole of `carom run`: steps to t_end and writes what the scene asks for to the folder out; without out, no files:
-    the summary is all, with the means of what [analysis] measures.
+    """Does all that `carom run` does: steps to t_end, and writes the files that the scene asks for to the folder out.
+    Without out there are no files: the result is the summary, with the means of the quantities in [analysis].
 
-    force replaces earlier results there; strict raises PhysicsError at the first warning of the physics; warn gets each
-    warning as a line (default: warnings.warn). Raises SceneError (a folder that holds another run, or has no name),
-    PhysicsError, RunError (the machine: a full disk, a plot that could not be drawn), KeyboardInterrupt, or what another
-    signal's handler raises (both with a checkpoint in out).
+    force replaces earlier results there; strict raises PhysicsError at the first warning of the physics; warn is called
+    with each warning, a line (default: warnings.warn). Raises SceneError (for example if the folder holds another run),
+    PhysicsError, RunError (the machine: a full disk, a plot that could not be drawn), KeyboardInterrupt, or the
+    exception of another signal's handler (the last two leave a checkpoint in out).
     """
     if warn is None:
         import warnings
@@ -50,10 +50,10 @@ def run(scene: Scene, out: Optional[_arguments.AnyPath] = None, threads: Optiona
 
 
 class _Worker:
-    """A process of map. Ctrl-C, which a terminal sends to all of them, ends its run; between runs it waits for what the first
-    process says, and begins none after that."""
+    """A process of map. Ctrl-C, which a terminal sends to all processes, ends its run. Between runs it waits for what
+    the first process says, and starts no run after that."""
 
-    stop = None  # an event of all processes
+    stop = None  # an event shared by all processes
     runs = False
 
 
@@ -74,7 +74,7 @@ def _begin_worker(stop):
 def _run_one(scene, out):
     import warnings
 
-    warnings.simplefilter("ignore", RuntimeWarning)  # they are in the summary
+    warnings.simplefilter("ignore", RuntimeWarning)  # warnings are in the summary
     _Worker.runs = True
     try:
         if _Worker.stop.is_set():
@@ -85,17 +85,18 @@ def _run_one(scene, out):
 
 
 def map(scenes: Iterable[Scene], outs: Optional[Sequence] = None, jobs: Optional[int] = None) -> list:
-    """Runs every scene by itself on one core, on all cores or on so many jobs at once; the results in the order of scenes.
+    """Runs every scene on one core each, on all cores or with this number of jobs at once; the results are in the order
+    of the scenes.
 
-    outs: a folder for each, or None for no files. Processes are begun anew ("spawn"): a script that calls this needs
-    `if __name__ == "__main__":`. Raises what a run raises, with the number of its scene; Ctrl-C stops all runs, each with a
-    checkpoint in its folder.
+    outs: a folder for each scene, or None for no files. Processes are started with "spawn", so a script that calls this
+    needs `if __name__ == "__main__":`. Raises the exception of a run, with the number of its scene; Ctrl-C stops all
+    runs, each with a checkpoint in its folder.
     """
     import multiprocessing
     from concurrent.futures import ProcessPoolExecutor
 
     scenes = list(scenes)
-    if isinstance(outs, (str, bytes, os.PathLike)):  # a text is a list of its letters
+    if isinstance(outs, (str, bytes, os.PathLike)):  # a text would count as a list of its letters
         raise TypeError(f"outs is {outs!r}; expected a list of folders, one for each scene")
     jobs = _arguments.size(jobs, "jobs")
     outs = [None] * len(scenes) if outs is None else list(outs)

@@ -11,9 +11,9 @@ from ._text import in_words_of_python as _in_words_of_python, overrides as _over
 class Scene:
     """A scene, read and checked.
 
-    Scene({...}) takes the tables and keys of a scene file as a dictionary; lists may be numpy arrays. changes are keys
-    and values that take the place of the scene's: {"run.t_end": 50.0}. Raises SceneError with one line that says what is
-    wrong and what was expected.
+    Scene({...}) takes the tables and keys of a scene file as a dictionary; lists may be numpy arrays. changes replaces
+    values of the scene: {"run.t_end": 50.0}. Raises SceneError with a line that says what is wrong and what was
+    expected.
     """
 
     def __init__(self, tables: Mapping[str, Any], changes: Mapping[str, Any] = {}):
@@ -22,12 +22,12 @@ class Scene:
 
     @classmethod
     def load(cls, path: _arguments.AnyPath, changes: Mapping[str, Any] = {}) -> "Scene":
-        """The scene of a TOML file. Raises SceneError (file, line, key, what was expected)."""
+        """The scene in a TOML file. Raises SceneError (file, line, key, what was expected)."""
         return cls._of(_carom.load_scene, _arguments.path(path), _overrides(changes))
 
     @classmethod
     def parse(cls, text: str, changes: Mapping[str, Any] = {}, folder: str = "") -> "Scene":
-        """The scene of TOML text; files that it names are looked for from folder on."""
+        """The scene of a TOML text; paths in it are relative to folder."""
         text = _arguments.text(text, "the text of a scene")
         return cls._of(_carom.parse_scene, text, "scene", _arguments.path(folder), _overrides(changes))
 
@@ -48,7 +48,7 @@ class Scene:
 
     @classmethod
     def _checked(cls, scene):
-        """What the compiled module takes for a scene. Raises TypeError for anything but a Scene."""
+        """The scene of the compiled module. Raises TypeError for anything but a Scene."""
         if not isinstance(scene, cls):
             raise TypeError(f"expected a carom.Scene, not {type(scene).__name__}: carom.Scene.load(path) reads a file, "
                             "carom.Scene({...}) takes a dictionary")
@@ -56,17 +56,17 @@ class Scene:
 
     @property
     def title(self) -> str:
-        """Empty where the scene has none."""
+        """Empty if the scene has none."""
         return self._scene.title
 
     @property
     def width(self) -> float:
-        """Of the box; length."""
+        """Width of the box; length."""
         return self._scene.width
 
     @property
     def height(self) -> float:
-        """Of the box; length."""
+        """Height of the box; length."""
         return self._scene.height
 
     @property
@@ -76,16 +76,16 @@ class Scene:
 
     @property
     def seed(self) -> int:
-        """Of the random numbers."""
+        """Seed of the random numbers."""
         return self._scene.seed
 
     @property
     def warnings(self) -> list:
-        """What is no error but may not be what was meant, one line each."""
+        """Warnings about settings that are no errors but may not be intended, one line each."""
         return self._scene.warnings()
 
     def toml(self) -> str:
-        """The scene as TOML with the defaults of what it uses spelled out."""
+        """The scene as TOML, with the defaults of what it uses written out."""
         return self._scene.toml()
 
     def __repr__(self):

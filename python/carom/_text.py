@@ -1,4 +1,5 @@
-"""Dictionaries as TOML, which is how a scene is read and checked; and messages of the command line as Python says them."""
+"""Dictionaries as TOML, which is how scenes are read and checked; and messages of the command line in the words of
+Python."""
 
 from __future__ import annotations
 
@@ -14,7 +15,7 @@ _bare = re.compile(r"[A-Za-z0-9_-]+")
 
 
 def _quoted(text: str) -> str:
-    """A string as TOML has it. JSON's differs in two things: it may have a DEL as it is, and pairs of surrogates."""
+    """A string as a TOML string. JSON differs in two ways: it may contain a DEL, and pairs of surrogates."""
     return json.dumps(_arguments.text(text, "a name or a value of a scene"), ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
@@ -25,7 +26,8 @@ def _key(name) -> str:
 
 
 def value(v: Any, where: str) -> str:
-    """A value in TOML: numbers in full precision, whatever their class shows of itself; numpy's as Python's. where: its key."""
+    """A value in TOML: numbers in full precision, whatever their class prints; those of numpy like Python's. where: its
+    key."""
     if hasattr(v, "tolist"):
         v = v.tolist()
     if isinstance(v, bool):
@@ -50,7 +52,7 @@ def _is_table_list(v) -> bool:
 
 
 def toml(tables: Mapping[str, Any]) -> str:
-    """A scene's tables, plain keys first, as they stand in a file."""
+    """The tables of a scene, with plain keys first, as in a file."""
     if not isinstance(tables, Mapping):
         raise TypeError(f"a scene is a dictionary, not {type(tables).__name__}; carom.Scene.load(path) reads a file, "
                         "carom.Scene.parse(text) text")
@@ -80,17 +82,17 @@ def overrides(changes: Mapping[str, Any]) -> list:
 
 
 def words_of_python(text: str) -> str:
-    """What the command line calls -o, --set, --force and --strict are arguments here."""
+    """Messages with -o, --set, --force and --strict of the command line replaced by the arguments here."""
     text = text.replace(" with -o", "").replace(" (-o)", "").replace("such as -o ", "such as ").replace("--force", "force=True")
     text = text.replace("--max-size:", "max_size:").replace("--engine:", "engine:").replace("--strict", "strict=True")
-    if text.startswith("--set "):  # elsewhere in a line it is of a command to type
+    if text.startswith("--set "):  # elsewhere in a line it is a command to type
         text = f"changes: {text[6:]}"
     return f"file:{text[3:]}" if text.startswith("-o:") else text
 
 
 @contextlib.contextmanager
 def in_words_of_python():
-    """Errors raised here say so too."""
+    """Errors raised within use the words of Python, too."""
     try:
         yield
     except (SceneError, PhysicsError) as error:
