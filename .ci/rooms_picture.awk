@@ -1,5 +1,5 @@
-# Draws .ci/rooms.txt as an SVG picture: a frame for each folder, in it a box for each room, an arrow to each room that
-# it includes. Arrows that follow from others (a includes b, b includes c: a may include c) are left out.
+# Draws .ci/rooms.txt as an SVG picture: a frame for each folder, in it a box for each room, and arrows to the rooms
+# that a room includes. Arrows that follow from others (a includes b, b includes c: a may include c) are left out.
 #   sed ... .ci/rooms.txt | awk -F'|' -f .ci/rooms_picture.awk       (.ci/includes picture)
 
 function folder_of(room) { sub(/\/.*/, "", room); return room }
@@ -8,7 +8,7 @@ function line(x1, y1, x2, y2, kind) {
     printf "<line class=\"%s\" x1=\"%d\" y1=\"%d\" x2=\"%d\" y2=\"%d\" marker-end=\"url(#%s-head)\"/>\n", kind, x1, y1, x2, y2, kind
 }
 
-# Does room a, by any way through the folder's rooms, include room b without the direct one?
+# Does room a include room b by another way through the folder's rooms, without the direct arrow?
 function by_another(a, b,    k) {
     for (k = 1; k <= count; k++)
         if (includes[a, name[k]] && (includes[name[k], b] || by_another(name[k], b))) return 1
@@ -17,7 +17,7 @@ function by_another(a, b,    k) {
 
 BEGIN {
     box_width = 150; box_height = 34; gap = 26; row_gap = 12; margin = 14; head = 26
-    # The folders: left and top of the frame's place, in columns of boxes and in rows of frames.
+    # The folders: left and top of each frame, counted in columns of boxes and in rows of frames.
     split("tests:0:0 bench:0:1 app:3:1 python:7:1 run:3:2 parallel:0:3 io:4:3 core:0:4", places, " ")
     for (k in places) {
         split(places[k], part, ":")
@@ -83,7 +83,7 @@ END {
     for (p = 1; p <= arrow_count; p++) {
         split(folder_arrows[p], ends, ">")
         a = ends[1]; b = ends[2]
-        # Straight down, in the middle of the width that the two frames share.
+        # Straight down, in the middle of the width that both frames share.
         low = left[a] > left[b] ? left[a] : left[b]
         high = left[a] + frame_width[a] < left[b] + frame_width[b] ? left[a] + frame_width[a] : left[b] + frame_width[b]
         x = (low + high) / 2

@@ -1,5 +1,5 @@
-# carom_build_version: the one source file that knows the commit (core/base/build_version.hpp). It is written anew when
-# git's HEAD or a source of the program changes, so that a commit costs this file and the links, and nothing else.
+# carom_build_version: the only source file that contains the commit (core/base/build_version.hpp). It is written again
+# when git's HEAD or a source of the program changes, so that a commit costs only this file and the links.
 set(version_file ${PROJECT_BINARY_DIR}/build_version.cpp)
 set(version_folders core parallel io run app)
 set(version_depends ${PROJECT_SOURCE_DIR}/cmake/WriteBuildVersion.cmake)
@@ -11,7 +11,7 @@ endforeach()
 list(APPEND version_folders viewer)
 list(APPEND version_depends ${viewer_sources})
 
-# Only a repository of our own: a tarball may have been unpacked inside another one.
+# Only if the repository is this project's own: a tarball may have been unpacked inside another repository.
 find_program(GIT git)
 set(version_git "")
 if(GIT AND EXISTS ${PROJECT_SOURCE_DIR}/.git)

@@ -1,6 +1,6 @@
-# cmake -D FOLDER=viewer -D FILE=page.cpp -P EmbedViewer.cmake: one page from the sources in viewer/, as a string of C++
-# (io/view/view_page.hpp). Modules are joined in the order below; a name that one exports is then known to all that
-# follow, so their import lines go, and no two modules may define the same name at the top.
+# cmake -D FOLDER=viewer -D FILE=page.cpp -P EmbedViewer.cmake: makes one page from the sources in viewer/, as a string
+# of C++ (io/view/view_page.hpp). Modules are joined in the order below. The exports of a module are then known to all
+# modules after it, so import lines are removed, and no two modules may define the same name at top level.
 set(page_modules format shear store colours camera disk_renderer overlay playback picking picture plots panel controls viewer
   main)
 set(worker_modules decode worker)
@@ -11,16 +11,16 @@ function(join_modules result)
     file(READ ${FOLDER}/${module}.js text)
     string(REGEX REPLACE "(^|\n)import [^\n]*" "\\1" text "${text}")
     string(REGEX REPLACE "(^|\n)export " "\\1" text "${text}")
-    # Comments stay with the sources, and so do the blanks that begin a line.
+    # Comments are removed, and so is the white space at the start of a line.
     string(REGEX REPLACE "\n *//[^\n]*" "" text "\n${text}")
     string(REGEX REPLACE "([;,{]) // [^\n]*" "\\1" text "${text}")
     string(REGEX REPLACE "\n[ \n]*" "\n" text "${text}")
-    # Nor do blanks around operators that no text of the page has; texts have " = ${".
+    # Spaces around operators are removed if no text of the page contains them; texts contain " = ${".
     string(REGEX REPLACE " (=>|[!=]==|&&|[|][|]|[-+*/]=|[<>]=?|\\*|[?:+]) " "\\1" text "${text}")
     string(REGEX REPLACE " = ([^$])" "=\\1" text "${text}")
     string(REGEX REPLACE "([^a-zA-Z])(if|for) \\(" "\\1\\2(" text "${text}")
     string(REGEX REPLACE "\\) {\n" "){\n" text "${text}")
-    # Nor do those at brackets, and after commas before a bracket or the last of what brackets hold.
+    # So are spaces at brackets, and after commas before a bracket or before the last item in brackets.
     string(REGEX REPLACE "([^$]{) " "\\1" text "${text}")
     string(REGEX REPLACE " }" "}" text "${text}")
     string(REGEX REPLACE "([])],) " "\\1" text "${text}")
@@ -32,7 +32,7 @@ function(join_modules result)
   set(${result} "\n\"use strict\";\n(() => {\n${joined}})();\n" PARENT_SCOPE)
 endfunction()
 
-# A hash as the content security policy wants it: base64 of its bytes. Six hexadecimal digits are four letters.
+# A hash as the content security policy needs it, its bytes in base64. Six hexadecimal digits make four letters.
 function(policy_hash result text)
   string(SHA256 hex "${text}")
   string(APPEND hex "00")
@@ -74,7 +74,7 @@ endif()
 if(page MATCHES "<!--embed:")
   message(FATAL_ERROR "viewer/page.html asks for something that cmake/EmbedViewer.cmake does not have")
 endif()
-# What the page of a run that goes on has besides: it may ask the server that it comes from, and nothing else.
+# The additional policy for the page of a run that is going on: it may send requests to its own server only.
 set(policy " ${live_hash}; connect-src 'self'")
 file(WRITE ${FILE} "#include \"io/view/view_page.hpp\"\n\nnamespace carom {\n
 const char* const viewer_page = R\"__page(${page})__page\";

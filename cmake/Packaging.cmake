@@ -1,9 +1,9 @@
-# What belongs to the installed program beside the library, and Debian packages of both by cpack.
+# The parts of the installed program besides the library, and Debian packages of both by cpack.
 include(GNUInstallDirs)
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # neither tests nor benchmarks are installed
 if(CAROM_PROGRAM)
   install(TARGETS carom RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
-  # From what the program says of itself.
+  # Made from the program's own --help.
   add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/carom.1
     COMMAND bash ${PROJECT_SOURCE_DIR}/cmake/man_page.sh $<TARGET_FILE:carom> ${PROJECT_VERSION} > carom.1
     DEPENDS carom ${PROJECT_SOURCE_DIR}/cmake/man_page.sh WORKING_DIRECTORY ${PROJECT_BINARY_DIR} COMMENT "" VERBATIM)
@@ -46,12 +46,12 @@ endif()
 if(CAROM_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL python3)
   set(CPACK_DEBIAN_PYTHON3_PACKAGE_NAME python3-carom)
-  math(EXPR next_python "${Python3_VERSION_MINOR} + 1")  # the compiled part is of one version
+  math(EXPR next_python "${Python3_VERSION_MINOR} + 1")  # the compiled part is for one version of Python
   set(CPACK_DEBIAN_PYTHON3_PACKAGE_DEPENDS
     "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next_python}), python3-numpy")
   set(CPACK_DEBIAN_PYTHON3_PACKAGE_SUGGESTS "python3-h5py")
 endif()
-# Debian's rule: every package has its licence in this place.
+# Debian requires the licence of every package in this place.
 foreach(component IN LISTS CPACK_COMPONENTS_ALL)
   string(TOUPPER ${component} name)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE RENAME copyright

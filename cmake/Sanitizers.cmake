@@ -1,7 +1,7 @@
-# CAROM_SANITIZE: empty, "fuzzer-no-link;address;undefined" or "thread"; set by the presets asan and tsan. The first is
-# clang's: its build serves the fuzzers too, which follow what the rooms that read input do (carom_coverage).
-# Those build with -O1 -g1 (at -O2 one test that reads JSON takes g++ half a minute) and without NDEBUG, and let the
-# standard library check its bounds, which a sanitizer sees only where the memory beyond was not allocated.
+# CAROM_SANITIZE: empty, "fuzzer-no-link;address;undefined" or "thread"; set by the presets asan and tsan. The first
+# needs clang; its build is also used for the fuzzers, which follow the execution of rooms that read input
+# (carom_coverage). These builds use -O1 -g1 (with -O2 a test that reads JSON takes g++ half a minute) and no NDEBUG,
+# and the standard library checks its bounds, which a sanitizer notices only if the memory beyond is not allocated.
 set(CAROM_SANITIZE "" CACHE STRING "sanitizers to build with")
 add_library(carom_sanitizers INTERFACE)
 add_library(carom_coverage INTERFACE)
@@ -19,8 +19,9 @@ if(CAROM_SANITIZE)
     target_compile_definitions(carom_sanitizers INTERFACE CAROM_ADDRESS_SANITIZER)
   endif()
   if(CAROM_SANITIZE MATCHES "thread")
-    # Debian's oneTBB is built without the thread sanitizer, which takes every block for a race with whoever gave it
-    # work. The one file that knows TBB (with what its headers make there) is left out too, and tells the sanitizer.
+    # Debian's oneTBB is built without the thread sanitizer, which takes every block for a race with the thread that
+    # provided its work. The one file that uses TBB (with the code from its headers) is excluded, too, and tells the
+    # sanitizer about these synchronisations.
     target_compile_definitions(carom_sanitizers INTERFACE CAROM_THREAD_SANITIZER)
     set_source_files_properties(${PROJECT_SOURCE_DIR}/parallel/threads/executor.cpp PROPERTIES COMPILE_OPTIONS -fno-sanitize=thread)
   endif()

@@ -1,4 +1,5 @@
-# cmake -D VERSION= -D GIT= -D FOLDERS= -D FILE= -P WriteBuildVersion.cmake: writes build_version() into FILE, if it is new.
+# cmake -D VERSION= -D GIT= -D FOLDERS= -D FILE= -P WriteBuildVersion.cmake: writes build_version() to FILE if it has
+# changed.
 if(GIT)
   set(ENV{GIT_OPTIONAL_LOCKS} 0)
   execute_process(COMMAND ${GIT} rev-parse --short=7 HEAD

@@ -2,7 +2,7 @@
 _carom() {
     local word=${COMP_WORDS[COMP_CWORD]} program=${COMP_WORDS[0]} command=${COMP_WORDS[1]-}
     COMPREPLY=()
-    # The launcher ./carom would first install and build: what it has built knows as much.
+    # The launcher ./carom would first install and build; the program that it has built is asked instead.
     if [[ $(head -c 2 -- "$(type -P -- "$program")" 2>/dev/null) == '#!' ]]; then
         program=$(dirname -- "$program")/build/release/carom
     fi

@@ -1,9 +1,9 @@
 #!/bin/bash
-# The manual page, from what the program says of itself: man_page.sh CAROM VERSION
+# Makes the manual page from the program's --help: man_page.sh CAROM VERSION
 set -euo pipefail
 carom=$1
 
-# Text of --help as it stands, with what troff would take for its own escaped.
+# The text of --help as it is, with characters escaped that are special to troff.
 verbatim() { sed 's/\\/\\e/g; s/^\([.'"'"']\)/\\\&\1/; s/-/\\-/g'; }
 
 # The commands that --help lists.
