@@ -1,11 +1,11 @@
 #!/bin/bash
-# Counts instructions, cache misses and mispredicted branches of fixed scenes by cachegrind: the same however busy the
-# machine is. Called by ./carom bench counts. Start-up does not count: each scene runs for two lengths, and what is
-# written is the difference of the counts over the difference of the work.
+# Counts instructions, cache misses and mispredicted branches of fixed scenes with cachegrind: the counts do not depend
+# on how busy the machine is. Called by ./carom bench counts. The start-up of the program does not count: each scene
+# runs for two lengths, and the difference of the counts over the difference of the work is written.
 #   counts.sh PROGRAM FILE            writes the CSV file
-#   counts.sh PROGRAM FILE --check    fails, with a line for each, where a count is above the file's by more than 3 %
-#                                   (mispredictions: 15 %, and 4 % in the mean of all scenes) and a thousandth of an event
-#   counts.sh PROGRAM FILE --features   the same of scene G with one feature each, for docs/benchmarks.md
+#   counts.sh PROGRAM FILE --check    fails, with a line for each, if a count is above the file's by more than 3 %
+#                                   (mispredictions: 15 %, and 4 % in the mean of all scenes) and by 0.001 per event
+#   counts.sh PROGRAM FILE --features   the same for scene G with one feature each, for docs/benchmarks.md
 set -euo pipefail
 file=$(readlink -f -- "$2")
 mode=${3-}
@@ -13,18 +13,19 @@ here=$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")
 [[ ! $mode || $mode == --check || $mode == --features ]] || { echo "usage: ./carom bench counts [--check | --features]" >&2 && exit 2; }
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-# Known by one name wherever it lies: the length of the command line moves the stack.
+# The program has the same name wherever it is: the length of the command line shifts the stack.
 ln -s "$(readlink -f -- "$1")" "$scratch/carom_counts"
 cd "$scratch"
 
-# What is counted, in the order of per_work.
+# The events counted, in the order of per_work.
 columns=(instructions first_level_misses last_level_misses mispredicted_branches)
 
 prepare() { # SCENE
     ./carom_counts prepare "$1" "$1.start"
 }
 
-# Without the caller's environment, for the same reason. The caches are those of a common core, whatever is here.
+# Runs without the caller's environment, for the same reason. The caches simulated are those of a common core, whatever
+# this machine has.
 count() { # SCENE.LENGTH
     local scene=${1%.*} length=${1##*.}
     env -i valgrind --tool=cachegrind --cache-sim=yes --branch-sim=yes --I1=32768,8,64 --D1=49152,12,64 --LL=1048576,16,64 \
@@ -44,7 +45,7 @@ totals() { # SCENE.LENGTH
         END { print "work", work }' "$1.counts"
 }
 
-# The columns of a scene, comma separated.
+# The columns of a scene, separated by commas.
 per_work() { # SCENE
     join <(totals "$1.long" | sort) <(totals "$1.short" | sort) | awk '
         { grown[$1] = $2 - $3 }
@@ -78,12 +79,12 @@ if [[ $mode != --check ]]; then
     cp counts.csv "$file"
     exit
 fi
-# Columns 4 to 7 are the counts. A scene that the file does not know has nothing to be held against. Cachegrind's table
-# of branches is indexed by the last 7 bits of an address and the last 7 branches: where code only came to lie elsewhere
-# (the same instructions, the same branches), mispredictions of one scene were seen to change by 17 %. Such chances even
-# out over the scenes, so the mean of all is held far closer.
-# What is below a thousandth of an event is a few dozen in the whole run, of where memory came to lie: no percentage of it
-# says anything.
+# Columns 4 to 7 are the counts. A scene that is not in the file is not checked. Cachegrind's table of branches is
+# indexed by the last 7 bits of an address and the last 7 branches: when code merely moved to other addresses (the same
+# instructions, the same branches), mispredictions of a scene have changed by up to 17 %. Such random changes average
+# out over the scenes, so the mean of all has a much closer limit.
+# Counts below a thousandth of an event are a few dozen in the whole run, which depend on the addresses of memory: their
+# relative change means nothing.
 awk -F, '
     FNR == 1 { for (k = 4; k <= 7; ++k) { name[k] = $k; gsub("_", " ", name[k]) } next }
     FNR == NR { compiler = $8; for (k = 4; k <= 7; ++k) kept[$1, k] = $k; next }

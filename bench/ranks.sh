@@ -1,11 +1,11 @@
 #!/bin/bash
-# What ranks cost on this machine, beside what a model of their parts says (docs/scaling.md). Called by
-# ./carom bench ranks; nothing else should run meanwhile.
+# The cost of ranks on this machine, compared with a model of its parts (docs/scaling.md). Called by ./carom bench
+# ranks; nothing else should run meanwhile.
 #   ranks.sh PROGRAM SCENES FILE      the scene is SCENES/gas_million.toml; writes the CSV file
-# Seconds of stepping, in turns, best of three rounds: one process with one thread and with one a core, 2 and 4 ranks of
-# one thread. The model has only what the first two, a small system, and counts say:
-#   seconds = (one process with a thread a core) * (1 + ghosts / disks of a rank) + waits * (what one takes)
-# ghosts: those whose events a rank processes too (exact); a wait: for the two neighbours, or for all ranks.
+# Seconds of stepping, in turns, the best of three rounds: one process with one thread and with one thread for each
+# core, and 2 and 4 ranks of one thread. The model uses only the first two, a small system, and counts:
+#   seconds = (one process with a thread for each core) * (1 + ghosts / disks of a rank) + waits * (time of one)
+# ghosts: those whose events a rank processes, too (exact); a wait: for the two neighbours, or for all ranks.
 set -euo pipefail
 program=$(readlink -f -- "$1") scene=$(readlink -f -- "$2")/gas_million.toml file=$(readlink -f -- "$3")
 cores=$(nproc)
@@ -14,13 +14,13 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cd "$scratch"
 
-# KEY of the run's summary; the last number of what stands there.
+# KEY in the run's summary; the last number of its value.
 value() { # FILE KEY
     awk -v key="\"$2\"" '
         index($0, key) { found = 1 }
         found && /[0-9]/ { n = $0; sub(/.*: */, "", n); gsub(/[^0-9.e+-]/, "", n); if (n != "") { print n; exit } }' "$1"
 }
-# Of one of the three parts of "traffic": a number of each step.
+# For one of the three parts of "traffic": its number in each step.
 waits() { # FILE
     awk '
         /"traffic"/ { inside = 1 }

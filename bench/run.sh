@@ -1,7 +1,7 @@
 #!/bin/bash
 # Runs the benchmark programs one after another and draws the chart. Called by the target carom_bench (./carom bench).
-#   run.sh PROGRAMS RESULTS [rows|figures]    folders with the programs and for the results; both parts, if none is named
-# On a machine that is shared, as root: CAROM_BENCH_SHIELD=1 ./carom bench keeps the others off while something is timed.
+#   run.sh PROGRAMS RESULTS [rows|figures]   folders of the programs and for the results; both parts if none is named
+# On a shared machine, as root, CAROM_BENCH_SHIELD=1 ./carom bench stops other programs during measurements.
 set -euo pipefail
 programs=$1
 results=$2

@@ -1,4 +1,5 @@
-# The scaling chart, from scaling.csv in the folder it runs in: time per disk and step, and speed-up, against disks.
+# The scaling chart, from scaling.csv in the current folder: time per disk and step, and speed-up, against the number of
+# disks.
 set datafile separator ','
 set terminal svg size 900,640 font 'sans-serif,15' enhanced background 'white'
 set output 'scaling.svg'
