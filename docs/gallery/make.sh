@@ -1,6 +1,6 @@
 #!/bin/bash
-# Makes the gallery's pages anew: runs each scene of README.md beside this file and makes a page of it, half a megabyte at
-# most. Takes about a minute.
+# Makes the pages of the gallery again: runs each scene of README.md in this folder and makes a page of it, of at most
+# half a megabyte. Takes about a minute.
 #   docs/gallery/make.sh
 set -euo pipefail
 cd -- "$(dirname -- "$(readlink -f -- "$0")")"
