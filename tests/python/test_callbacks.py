@@ -1,4 +1,4 @@
-"""Functions that a simulation calls while it runs: when they come, and what they raise."""
+"""Functions that a simulation calls while it runs: when they are called, and exceptions that they raise."""
 
 import carom
 import numpy as np
@@ -39,7 +39,7 @@ def test_a_run_until_a_time_that_has_come_makes_no_step():
     assert sim.steps == steps > 0
 
 
-# Sums of dt are rounded; exact windows end where they end.
+# Sums of dt are rounded, so a step may end a little early; the windows of the exact method end exactly at their end.
 @pytest.mark.parametrize("method, t_end, calls", [("pairwise", 1.0 - 5e-7, 1), ("exact", 1.0 - 5e-7, 0), ("exact", 1.0, 1)])
 def test_a_little_too_early_is_in_time_for_steps_alone(method, t_end, calls):
     sim = carom.Simulation(carom.Scene.parse(gas(2).toml(), {"run.method": method, "run.t_end": t_end}), threads=1)
@@ -49,7 +49,8 @@ def test_a_little_too_early_is_in_time_for_steps_alone(method, t_end, calls):
     assert len(seen) == calls
 
 
-# Steps end at multiples of the interval, and their quotient by it may be rounded across a whole number.
+# Steps end at multiples of the interval, and the quotient of the time and the interval may be rounded to above or below
+# a whole number.
 @pytest.mark.parametrize("dt, interval", [(0.1, 0.1), (0.01, 0.01), (0.07, 0.07), (0.01, 0.07), (0.03, 0.01)])
 def test_callbacks_come_once_at_every_multiple(dt, interval):
     scene = carom.Scene.parse(gas(2).toml(), {"run.dt": dt, "run.t_end": 2000 * dt})
@@ -74,7 +75,8 @@ def test_callbacks_come_once_at_every_multiple(dt, interval):
 
 
 def test_callbacks_come_with_the_frames_of_a_run(tmp_path):
-    """0.3, a sum of thirty dt, is less than 3 * 0.1: frames took that for 0.3, and callbacks waited for 0.31."""
+    """The time 0.3, a sum of thirty dt, is less than 3 * 0.1: frames once accepted it as 0.3, but callbacks waited for
+    0.31."""
     scene = carom.Scene.parse(gas(2).toml(), {
         "run.dt": 0.01, "run.t_end": 2.0, "output.every": 0.1, "output.series": True})
     sim, seen = carom.Simulation(scene, threads=1), []
@@ -102,5 +104,5 @@ def test_the_next_multiple_is_the_least_beyond_a_time():
             for time in (np.nextafter(interval * k, 0.0), interval * k, np.nextafter(interval * k, np.inf)):
                 found = _next_multiple(interval, time)
                 assert interval * found > time and (found == 1 or interval * (found - 1) <= time), (interval, time)
-    tiny = 1e-17  # of which 1 has so many that they are not counted one by one
+    tiny = 1e-17  # 1 contains so many of these that they are not counted one by one
     assert tiny * _next_multiple(tiny, 1.0) > 1.0 >= tiny * np.nextafter(_next_multiple(tiny, 1.0), 0.0)

@@ -1,4 +1,5 @@
-"""The Python module: the command line's bits, and what it promises of copies, views and threads."""
+"""The Python module: it gives the same bits as the command line, and keeps its promises on copies, views and
+threads."""
 
 import glob
 import json
@@ -20,7 +21,7 @@ from small_gas import gas
 source = pathlib.Path(os.environ["CAROM_SOURCE_DIR"])
 program = os.environ["CAROM_PROGRAM"]
 
-# What a scene runs to here: a few steps of the large ones.
+# The time for which a scene runs here: a few steps of the large ones.
 short = {"gas_million.toml": 0.02, "dense_mixture.toml": 0.05, "production_c.toml": 0.5}
 
 
@@ -119,7 +120,7 @@ def test_summary_and_warnings_only_look():
     sim.step(3)
 
     def summary():
-        return sim.summary | {"phase_s": None}  # measured
+        return sim.summary | {"phase_s": None}  # a measured time
 
     expected = summary()
     for change in (lambda: None, lambda: sim.from_bytes(sim.to_bytes())):
@@ -134,7 +135,7 @@ def test_summary_and_warnings_only_look():
 
 
 def test_an_array_of_a_view_keeps_the_simulation():
-    # In a process of its own, which ends where it reads memory that was given back.
+    # This runs in a separate process, which crashes if it reads memory that was freed.
     script = """if True:
         import carom, sys
         scene = carom.Scene.parse(sys.argv[1])
@@ -255,9 +256,9 @@ def test_two_simulations_in_two_threads_while_python_runs():
     threads = [threading.Thread(target=s.step, args=(3000,)) for s in sims]
     for t in threads:
         t.start()
-    counted = 0  # hundreds of times on an idle machine
+    counted = 0  # it reaches hundreds on an idle machine
     while any(t.is_alive() for t in threads):
-        counted += 1  # the steps let this loop run
+        counted += 1  # this loop runs during the steps
         time.sleep(0)
     assert counted > 10, counted
     assert [s.hash for s in sims] == [alone.hash] * 2
@@ -278,11 +279,11 @@ def test_a_fork_is_refused_where_threads_would_be_missing():
             except RuntimeError as error:
                 said += b"refused " if "forked" in str(error) else b"other "
         try:
-            signal.alarm(30)  # threads that are not there would never answer
+            signal.alarm(30)  # missing threads would never answer
             several.step(1)
         except RuntimeError as error:
             said += b"both" if "began in another process" in str(error) else b"other"
-        try:  # none has more than one thread, whatever is asked of the reference, and wherever it began
+        try:  # one thread works in any process; the reference has one for any number asked for
             for one in (alone, carom.Simulation(gas(), threads=1), carom.Simulation(gas(), threads=2, engine="reference")):
                 one.step(6 - one.steps)
                 said += b" " + one.hash.encode()

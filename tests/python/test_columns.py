@@ -1,4 +1,4 @@
-"""Columns, properties and options of the module, each told from its neighbours."""
+"""Columns, properties and options of the module, each checked to differ from similar ones."""
 
 import json
 import os
@@ -12,7 +12,7 @@ program = os.environ["CAROM_PROGRAM"]
 
 
 def mixture(changes={}, **tables):
-    """Rough disks that all differ, in a box that is wider than high and periodic from left to right alone."""
+    """Rough disks that all differ, in a box that is wider than high and periodic only from left to right."""
     return carom.Scene({
         "title": "mixture", "seed": 7,
         "box": {"width": 24.0, "height": 12.0, "left": "periodic", "right": "periodic"},
@@ -157,7 +157,7 @@ def test_a_plot_that_could_not_be_drawn_is_an_error(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("form", ["xyz", "h5md"])
 def test_frames_without_disks_have_the_same_columns(form, tmp_path):
-    """A loop over f.group or f.spin broke off where a sink had taken the last disk."""
+    """A loop over f.group or f.spin once failed after a sink had taken the last disk."""
     scene = carom.Scene({
         "box": {"width": 6.0, "height": 6.0, "left": "sink", "bottom": "periodic", "top": "periodic"},
         "physics": {"roughness": {"tangential_restitution": 0.5}},

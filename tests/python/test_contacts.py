@@ -1,4 +1,4 @@
-"""Contacts of the last step as a numpy column, and queries of fixed disks."""
+"""Contacts of the last step as a numpy column, and queries for fixed disks."""
 
 import carom
 import numpy as np

@@ -1,4 +1,5 @@
-"""Ctrl-C: it ends what goes on, between steps or where there are none, and leaves what can go on."""
+"""Ctrl-C stops work that is going on, within steps or outside them, and leaves files from which a run can be
+continued."""
 
 import os
 import signal
@@ -66,7 +67,7 @@ def test_what_another_signal_raises_ends_a_run_too(tmp_path):
 
 @pytest.mark.parametrize("engine", ["parallel", "reference"])
 def test_ctrl_c_while_disks_grow(engine, tmp_path):
-    # They would grow for half a minute and more, a step for seconds.
+    # Disks would grow for more than half a minute, and a step of growth takes seconds.
     scene = carom.Scene({"box": {"packing_fraction": 0.83}, "growth": {"slowness": 1000.0},
                          "disks": [{"count": 5000, "positions": "growth", "radius": 0.5, "mass": 1.0,
                                     "velocities": {"maxwell": 1.0}}],
@@ -84,7 +85,7 @@ def test_ctrl_c_while_disks_grow(engine, tmp_path):
 
 @pytest.mark.parametrize("engine", ["parallel", "reference"])
 def test_ctrl_c_while_disks_are_placed(engine):
-    # No million finds room at this density, which takes the best part of a minute to find out.
+    # A million disks have no room at this density, and finding this out takes almost a minute.
     scene = carom.Scene({"box": {"packing_fraction": 0.549}, "run": {"t_end": 1.0},
                          "disks": [{"count": 1000000, "positions": "random", "radius": 0.5, "mass": 1.0}]})
     began = time.monotonic()
@@ -95,7 +96,7 @@ def test_ctrl_c_while_disks_are_placed(engine):
     assert time.monotonic() - began < 10.0
 
 
-@pytest.mark.parametrize("send", [os.kill, os.killpg])  # to the first process; to all, as a terminal does
+@pytest.mark.parametrize("send", [os.kill, os.killpg])  # to the first process only, and to all of them, like a terminal
 def test_ctrl_c_stops_all_runs_of_a_map(send, tmp_path):
     (tmp_path / "many.py").write_text("""
 import carom

@@ -1,4 +1,4 @@
-"""Every name of the module: a docstring, and types."""
+"""Every name of the module has a doc string, and types."""
 
 import inspect
 import pickle
@@ -33,7 +33,7 @@ def test_every_call_has_types():
         signature = inspect.signature(call)
         typed = [p.annotation for p in signature.parameters.values() if p.name not in ("self", "cls")]
         assert inspect.Signature.empty not in [*typed, signature.return_annotation], name
-        typing.get_type_hints(call)  # whose names are all known
+        typing.get_type_hints(call)  # raises if a type is unknown
 
 
 def test_every_column_has_a_type():

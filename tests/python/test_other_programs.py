@@ -1,4 +1,4 @@
-"""Frames and trajectories as ASE, MDAnalysis, GSD and freud take them."""
+"""Frames and trajectories are read by ASE, MDAnalysis, GSD and freud."""
 
 import os
 
@@ -23,7 +23,7 @@ def test_ase_takes_frames(result):
     assert np.array_equal(last.positions, frame.positions3d())
     assert np.allclose(last.get_velocities()[:, 0], frame.vx) and (last.get_masses() == 2.0).all()
     assert list(last.pbc) == [True, False, False] and np.allclose(last.cell.lengths(), [*frame.box, 0.0])
-    # Across the periodic side, as ASE computes it.
+    # The distance across the periodic side, as ASE computes it.
     i, j = np.argmin(frame.x), np.argmax(frame.x)
     dx = frame.x[i] + frame.box[0] - frame.x[j]
     assert np.isclose(last.get_distance(i, j, mic=True), np.hypot(dx, frame.y[i] - frame.y[j]))
@@ -113,7 +113,8 @@ def test_gsd_leaves_no_part_of_a_file(tmp_path):
 
 
 def test_gsd_has_the_rounds_across_periodic_sides(result, tmp_path):
-    """Unwrapped by them, as programs do for displacements, no disk jumps by half the box between two frames."""
+    """If positions are unwrapped with these, as programs do for displacements, no disk jumps by half the box between
+    two frames."""
     hoomd = pytest.importorskip("gsd.hoomd")
     result.frames.to_gsd(tmp_path / "run.gsd")
     with hoomd.open(str(tmp_path / "run.gsd"), "rb") as file:

@@ -1,4 +1,4 @@
-"""The programs that make the numbers of the paper, docs/paper: how numbers are written, and what is kept of experiments."""
+"""The programs that make the numbers of the paper, docs/paper: how numbers are written, and which results are kept."""
 
 import importlib
 import os

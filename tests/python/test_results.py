@@ -1,4 +1,4 @@
-"""What a run leaves as Python sees it: columns with their errors, plots, the viewer, frames."""
+"""The results of a run in Python: columns with their errors, plots, the viewer, frames."""
 
 import copy
 import html
@@ -48,7 +48,7 @@ def test_a_run_without_files_is_measured_too(tmp_path):
         assert result.summary["analysis"] == with_files.summary["analysis"]
 
 
-# What is warned of on the way: the only disk goes before the first sample.
+# Warnings during a run: the only disk leaves before the first sample.
 def test_a_run_without_files_warns_of_what_is_not_measured(tmp_path):
     scene = carom.Scene({
         "box": {"width": 4.0, "height": 4.0, "right": "sink"},
@@ -174,7 +174,7 @@ def test_a_trajectory_that_goes_on_is_read_as_far_as_it_is_there(result, tmp_pat
     if not result.frames.file.endswith(".xyz"):
         pytest.skip("lines can be added to text alone")
     lines = open(result.frames.file).read().splitlines(keepends=True)
-    whole = len(lines) // 9  # lines a frame
+    whole = len(lines) // 9  # lines of each frame
     unfinished = tmp_path / "carom-unfinished"
     unfinished.mkdir()
     (unfinished / "trajectory.xyz").write_text("".join(lines[:2 * whole]))
@@ -186,7 +186,7 @@ def test_a_trajectory_that_goes_on_is_read_as_far_as_it_is_there(result, tmp_pat
     with open(unfinished / "trajectory.xyz", "a") as file:
         file.write("".join(lines[2 * whole:5 * whole + 3]))
     assert len(frames) == 5 and frames[-1].t == 2.0
-    (unfinished / "trajectory.xyz").rename(tmp_path / "trajectory.xyz")  # as a run that ends
+    (unfinished / "trajectory.xyz").rename(tmp_path / "trajectory.xyz")  # like at the end of a run
     assert len(frames) == 5 and [f.t for f in frames][:2] == [0.0, 0.5]
 
 

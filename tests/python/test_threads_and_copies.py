@@ -1,4 +1,4 @@
-"""Simulations between threads, and copies of them."""
+"""Simulations used by several threads, and copies of simulations."""
 
 import copy
 import pickle
@@ -32,12 +32,12 @@ def test_a_simulation_in_a_step_answers_no_other_thread():
 
     other = threading.Thread(target=other_thread)
     other.start()
-    for _ in range(100000):  # a few are enough
+    for _ in range(100000):  # a few steps are enough
         if not asks:
             break
         try:
             sim.step(20)
-        except RuntimeError:  # the other one steps, or has a view
+        except RuntimeError:  # the other thread steps, or has a view
             time.sleep(0)
     over = True
     other.join()
@@ -51,12 +51,12 @@ def test_its_text_for_another_thread_says_that_it_steps():
 
     def other_thread():
         while not over.is_set():
-            texts.add(repr(sim))  # raised, once
+            texts.add(repr(sim))  # this once raised
             time.sleep(0)
 
     other = threading.Thread(target=other_thread)
     other.start()
-    for _ in range(1000):  # a few are enough
+    for _ in range(1000):  # a few steps are enough
         sim.step(20)
         if "<carom.Simulation, in a step of another thread>" in texts or not other.is_alive():
             break
@@ -102,7 +102,7 @@ def test_a_copy_is_another_simulation(engine):
     assert [c.hash for c in copies] == [sim.hash] * 3
 
 
-# A worker of map or of dask takes a scene up when its turn comes, which may be hours later and on another machine.
+# A worker of map or of dask starts a scene in its turn, which may be hours later and on another machine.
 def test_a_scene_is_copied_as_it_was_read(tmp_path):
     file, places = tmp_path / "gas.toml", tmp_path / "places.csv"
     places.write_text("1.0,2.0\n3.0,4.0\n")

@@ -1,7 +1,7 @@
-"""docs/tour.ipynb and examples/sweep_dask.py give what they say.
+"""docs/tour.ipynb and examples/sweep_dask.py give the results that they state.
 
-The notebook's cells are run here in their order, in one namespace, and what a cell ends with is shown as a notebook would
-show it. There is no Jupyter in between: its kernel and the forty packages behind it are not what is tested.
+The notebook's cells are run here in their order, in one namespace, and the value of a cell's last line is shown as in a
+notebook. Jupyter itself is not used: its kernel and the forty packages that it needs are not under test.
 """
 
 import ast
@@ -18,7 +18,7 @@ source = pathlib.Path(os.environ["CAROM_SOURCE_DIR"])
 
 
 def run_cells(notebook, names):
-    """The pages (or texts) that the cells show, those that end with an expression."""
+    """Runs the cells and returns the pages (or texts) that are shown by cells that end with an expression."""
     shown = []
     for cell in json.loads(notebook.read_text())["cells"]:
         if cell["cell_type"] != "code":

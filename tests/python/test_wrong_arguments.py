@@ -1,4 +1,4 @@
-"""What a call says to arguments of the wrong kind: what it expected, in the words of Python."""
+"""Error messages for arguments of the wrong kind: they name what was expected, in terms of Python."""
 
 import enum
 import os
@@ -73,7 +73,7 @@ def test_steps_threads_and_callbacks():
         sim.run(until=np.nan)
     with pytest.raises(TypeError, match="expected a function of the simulation, not int"):
         sim.every(1.0, 3)
-    sim.step(2**70)  # more than there are to the end
+    sim.step(2**70)  # more steps than there are to the end
     assert sim.done
 
 
@@ -83,7 +83,7 @@ def test_intervals_are_kept_as_numbers():
         sim, seen = carom.Simulation(moving, threads=1), []
         sim.every(interval, lambda s: seen.append(s.time))
         if isinstance(interval, np.ndarray):
-            interval *= 0  # the caller's own
+            interval *= 0  # changes the caller's array only
         sim.run()
         assert seen == [0.25, 0.5, 0.75, 1.0]
     with pytest.raises(ValueError, match="^interval is too large; expected a number below 1.8e308$"):
@@ -186,7 +186,7 @@ def test_other_folders_are_no_options(tmp_path):
         carom.run(scene(), out="/")
 
 
-# A command that can be typed as it stands.
+# The message contains a command that can be typed as it is.
 def test_a_remedy_of_the_command_line_stays_one(tmp_path):
     carom.run(scene(output={"series": True}), out=tmp_path / "run")
     with pytest.raises(carom.SceneError, match="carom run .*/scene.toml --set output.checkpoint=600 --t-end T -o DIR$"):
