@@ -1,4 +1,4 @@
-"""Figures: gnuplot draws lines and points, LaTeX sets the text, so that it is the paper's own."""
+"""Figures: gnuplot draws lines and points, and LaTeX sets the text in the fonts of the paper."""
 
 import subprocess
 from pathlib import Path
@@ -16,7 +16,7 @@ set bars 0.6
 
 
 def block(name: str, rows: list) -> str:
-    """Rows of numbers as a data block $name; an empty row parts what is drawn as one line."""
+    """Makes a data block $name from rows of numbers; an empty row separates the lines of a curve."""
     return (
         f"${name} << EOD\n"
         + "".join(" ".join(f"{x:.10g}" if not isinstance(x, str) else x for x in row) + "\n" for row in rows)
@@ -25,7 +25,7 @@ def block(name: str, rows: list) -> str:
 
 
 def draw(folder: Path, name: str, commands: str, width: float = 7.8, height: float = 6.4) -> None:
-    """name.tex and name.pdf in the folder. Raises subprocess.CalledProcessError with what gnuplot said."""
+    """Writes name.tex and name.pdf to the folder. Raises subprocess.CalledProcessError if gnuplot fails."""
     colours = "".join(
         f'set linetype {k + 1} linecolor rgb "{c}" pointtype {p}\n'
         for k, (c, p) in enumerate(zip(COLOURS, [7, 5, 9, 11, 13, 6]))

@@ -1,6 +1,6 @@
-"""What an experiment of the paper gave: results/NAME.json, with the commit and the machine it was made on.
+"""The results of the paper's experiments: results/NAME.json, with the commit and the machine that made them.
 
-A row is an object of numbers and texts; rows of runs have the run's state_hash.
+A row is an object of numbers and texts; rows of runs contain the run's state_hash.
 """
 
 import json
@@ -13,13 +13,13 @@ FOLDER = Path(__file__).parent / "results"
 
 
 def machine() -> dict:
-    """The processor's name and how many cores this process may use."""
+    """The processor's name and the number of cores that this process may use."""
     names = re.findall(r"^model name\s*:\s*(.*)$", Path("/proc/cpuinfo").read_text(), re.MULTILINE)
     return {"processor": names[0] if names else "unknown", "cores": len(os.sched_getaffinity(0))}
 
 
 def commit() -> str:
-    """The commit of the checkout, with -dirty where a file of it was changed, the paper's own apart."""
+    """The commit of the checkout, with -dirty if a file has been changed outside docs and bench/results."""
     root = Path(__file__).parents[2]
 
     def git(*arguments):
@@ -32,7 +32,7 @@ def commit() -> str:
 
 
 def keep(name: str, rows: list) -> None:
-    """Writes the rows of an experiment: whole, or not at all."""
+    """Writes the rows of an experiment, either all of them or nothing."""
     content = {"experiment": name, "commit": commit(), "machine": machine(), "rows": rows}
     lines = ",\n    ".join(json.dumps(row) for row in content.pop("rows"))
     text = json.dumps(content, indent=2).removesuffix("\n}") + f',\n  "rows": [\n    {lines}\n  ]\n}}\n'
@@ -42,5 +42,5 @@ def keep(name: str, rows: list) -> None:
 
 
 def kept(name: str) -> dict:
-    """What keep() wrote last: experiment, commit, machine, rows."""
+    """The last result that keep() wrote: experiment, commit, machine, rows."""
     return json.loads((FOLDER / f"{name}.json").read_text())

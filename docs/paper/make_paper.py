@@ -21,7 +21,7 @@ from experiments import NAMES
 
 HERE = Path(__file__).parent
 BUILD = HERE.parents[1] / "build"
-OF_THE_METHODS = ["model", "methods", "exact_window", "determinism"]  # have constants of the program itself
+OF_THE_METHODS = ["model", "methods", "exact_window", "determinism"]  # these contain constants of the program itself
 SAME_DATE = {"SOURCE_DATE_EPOCH": "0", "FORCE_SOURCE_DATE": "1", "TZ": "UTC", "LC_ALL": "C.UTF-8"}
 
 
@@ -36,7 +36,7 @@ def run_experiments(names: list) -> None:
 
 
 def write_results(folder: Path) -> None:
-    """numbers.tex and the figures, of all experiments."""
+    """Writes numbers.tex and the figures of all experiments."""
     numbers = {}
     for name in NAMES:
         try:
@@ -54,7 +54,8 @@ def write_results(folder: Path) -> None:
 
 
 def typed_numbers() -> list:
-    """Decimals in the text that no program wrote: lines of the sections, but for formulas, lengths and those of the methods."""
+    """Lists decimals in the text that no program wrote, by lines of the sections; formulas, lengths and the sections on
+    methods are left out."""
     faults = []
     for source in sorted(set(HERE.glob("*.tex")) - {HERE / f"{name}.tex" for name in OF_THE_METHODS}):
         for k, line in enumerate(source.read_text().splitlines(), 1):
@@ -65,7 +66,7 @@ def typed_numbers() -> list:
 
 
 def typeset(folder: Path) -> None:
-    """LaTeX as often as it asks for; on an error, what it said of it."""
+    """Runs LaTeX as often as it asks for; on an error, ends the program with the error lines of its log."""
     for source in [*HERE.glob("*.tex"), *HERE.glob("*.bib")]:
         shutil.copy(source, folder)
     done = subprocess.run(

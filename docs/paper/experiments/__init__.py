@@ -2,7 +2,7 @@
 
     run() -> rows             makes the runs; the rows are kept in results/NAME.json
     numbers(rows) -> dict     key: LaTeX text, for \\result{NAME.key}
-    draw(rows, folder)        where there is a figure: NAME.tex and NAME.pdf
+    draw(rows, folder)        if there is a figure: NAME.tex and NAME.pdf
 """
 
 NAMES = [

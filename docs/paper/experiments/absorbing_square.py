@@ -1,4 +1,5 @@
-"""Brownian disks that an absorbing square takes, at long steps, against the series of the diffusion equation."""
+"""Brownian disks removed by an absorbing square, with long steps, compared with the series of the diffusion
+equation."""
 
 import math
 
@@ -11,7 +12,8 @@ METHODS = ["exact", "pairwise"]
 
 
 def theory(tau: float) -> float:
-    """The share left of a uniform start: [(8 / pi^2) sum over odd n of exp(-n^2 pi^2 tau) / n^2]^2, tau = D t / L^2."""
+    """The share of a uniform start that is left, with tau = D t / L^2:
+    [(8 / pi^2) sum over odd n of exp(-n^2 pi^2 tau) / n^2]^2."""
     total = sum(math.exp(-n * n * math.pi**2 * tau) / (n * n) for n in range(1, 400, 2))
     return (8.0 / math.pi**2 * total) ** 2
 
@@ -62,7 +64,7 @@ def numbers(rows: list) -> dict:
         table += " \\\\ "
     made["table"] = table
     made["worst"] = tex_numbers.digits(worst, 1)
-    # Walls that look only at the ends of steps lie 0.5826 sqrt(2 D dt) further out.
+    # Walls that absorb only at the ends of steps act as if they were 0.5826 sqrt(2 D dt) further out.
     far = SIDE + 2 * 0.5826 * math.sqrt(2.0 * DIFFUSION * DT)
     made["unseen_last"] = tex_numbers.digits(theory(TIMES[-1] / far**2), 3)
     return made

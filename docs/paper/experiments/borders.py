@@ -1,4 +1,4 @@
-"""What the slices of a run with eight regions leave to their borders: `carom_figures DIR borders`."""
+"""The work that the slices of a run with eight regions leave to their borders: `carom_figures DIR borders`."""
 
 import csv
 

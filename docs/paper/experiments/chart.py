@@ -49,7 +49,8 @@ def run() -> list:
 
 
 def ratios(rows: list, measure: str, error: float) -> dict:
-    """The cost of pairwise over that of exact for such an error, by scene; scenes where it is not reached are left out."""
+    """The cost of pairwise over that of exact for this error, by scene; scenes in which it is not reached are left
+    out."""
     return {
         row["scene"]: row["pairwise"] / row["exact"]
         for row in rows

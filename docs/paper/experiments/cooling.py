@@ -1,4 +1,5 @@
-"""Uniform cooling of inelastic disks: Haff's law for constant restitution, its exponent -5/3 for viscoelastic disks."""
+"""Uniform cooling of inelastic disks: Haff's law for constant restitution, and its exponent -5/3 for viscoelastic
+disks."""
 
 import math
 
@@ -10,7 +11,7 @@ from experiments.gas import periodic_gas
 
 DISKS, PACKING, SEEDS = 1024, 0.1, 8
 RESTITUTION, VISCOELASTIC = 0.98, 0.02
-RATE = 4.0 * 0.236144 / math.sqrt(math.pi)  # collisions of a disk and unit of time, at temperature 1
+RATE = 4.0 * 0.236144 / math.sqrt(math.pi)  # collisions per disk and unit of time, at temperature 1
 TAU = {
     "constant": 4.0 / ((1.0 - RESTITUTION**2) * RATE),
     "viscoelastic": 1.0 / (0.6 * RATE * VISCOELASTIC * 4.0**0.1 * math.gamma(2.1)),
@@ -19,8 +20,8 @@ TIMES = [0.1, 0.2, 0.35, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 4.7]  # in units of
 
 
 def loss(temperature: float) -> float:
-    """-dT/dt of viscoelastic disks: half the collision rate of a disk times the mean of (1 - e^2) v^2 / 4, where e = 1 - a v^(1/5)
-    and the speed v of disks that collide has the density v exp(-v^2 / 4 T)."""
+    """The loss -dT/dt of viscoelastic disks: half the collision rate of a disk times the mean of (1 - e^2) v^2 / 4,
+    where e = 1 - a v^(1/5) and the speed v of colliding disks has the density v exp(-v^2 / 4 T)."""
 
     def mean(power):
         return (4.0 * temperature) ** (0.5 * power) * math.gamma(0.5 * power + 1.0)
@@ -30,7 +31,7 @@ def loss(temperature: float) -> float:
 
 
 def theory(law: str, time: float) -> float:
-    """The temperature at `time`, in units of tau, from 1 on."""
+    """The temperature at `time`, in units of tau, starting from 1."""
     if law == "constant":
         return (1.0 + time) ** -2
     t, steps = 1.0, 4000
@@ -68,7 +69,7 @@ def run() -> list:
 
 
 def ratios(rows: list, law: str) -> list:
-    """Mean and standard error of the temperature over that of theory, for each of TIMES."""
+    """Mean and standard error of the temperature divided by that of theory, for each of TIMES."""
     measured = np.array([row["temperatures"] for row in rows if row["law"] == law])
     over = measured / [theory(law, time) for time in TIMES]
     return [(float(r.mean()), float(r.std(ddof=1)) / math.sqrt(len(r))) for r in over.T]

@@ -1,4 +1,5 @@
-"""Galperin's collisions: a wall, a disk at rest, and one 100^k times as heavy that comes in. Their number is floor(10^k pi)."""
+"""Galperin's collisions: a wall, a disk at rest, and a moving one that is 100^k times as heavy. Their number is
+floor(10^k pi)."""
 
 from experiments.program import summary
 
@@ -43,7 +44,7 @@ def run() -> list:
 
 
 def numbers(rows: list) -> dict:
-    """The text has one list of counts for all methods."""
+    """One list of counts for all methods, as they must agree."""
     counts = {method: [row["collisions"] for row in rows if row["method"] == method] for method in METHODS}
     if any(of_method != counts["exact"] for of_method in counts.values()):
         raise RuntimeError(f"counting_pi: the methods do not count alike: {counts}")

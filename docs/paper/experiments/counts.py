@@ -1,4 +1,4 @@
-"""Instructions, cache misses and mispredicted branches of a collision by cachegrind: `./carom bench counts`."""
+"""Instructions, cache misses and mispredicted branches for each collision, from cachegrind: `./carom bench counts`."""
 
 import csv
 

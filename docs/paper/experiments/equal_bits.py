@@ -1,5 +1,5 @@
-"""The example scenes on the reference and on the engine: on 1 to 8 threads, with the kernels for any processor, saved and
-resumed halfway, on ranks. One hash of the state at the end each."""
+"""The example scenes on the reference and on the engine: with 1 to 8 threads, with the kernels for any processor, saved
+and resumed halfway, and on ranks. A row has the hash of the final state for each."""
 
 import tomllib
 
@@ -7,27 +7,27 @@ import tex_numbers
 from experiments.gas import periodic_gas
 from experiments.program import ROOT, scratch, summary
 
-SHARE = 0.05  # of the scene's own length
-LARGE = {  # of the sizes at which threads have parts, regions, and many blocks
+SHARE = 0.05  # of the scene's own t_end
+LARGE = {  # large enough for parts of threads, for regions, and for many blocks
     "gas in parts": periodic_gas(200_000, 0.5, t_end=40.0),
     "leaking gas in regions": periodic_gas(120_000, 0.3, t_end=40.0, box={"left": "sink", "right": "sink"}),
     "gas by steps": periodic_gas(100_000, 0.5, t_end=20.0, method="pairwise", dt=0.005),
 }
 THREADS = [1, 2, 3, 8]
 RANKS = [2, 3]
-SKIPPED = {"gas_million"}  # would take the reference too long
+SKIPPED = {"gas_million"}  # it would take the reference too long
 QUIET = ["output.movie=false", "output.plots=[]", "output.series=false"]
 
 
 def changes_of(file) -> dict:
-    """Keys that make the scene shorter."""
+    """Changes of keys that make the scene shorter."""
     own = tomllib.loads(file.read_text())
     start = {"analysis.start": 0.0} if "start" in own.get("analysis", {}) else {}
     return {"run.t_end": SHARE * own["run"]["t_end"], **start}
 
 
 def by_command(file, *arguments, environment={}):
-    """The hash of `carom run`, or None where it refuses (not all scenes can be shared by ranks)."""
+    """The hash of `carom run`, or None if it refuses the scene (not all scenes can be shared by ranks)."""
     changes = [*QUIET, *(f"{key}={value}" for key, value in changes_of(file).items())]
     options = [word for change in changes for word in ("--set", change)]
     made = summary(file, *options, *arguments, environment=environment, statuses=(0, 2))
@@ -35,7 +35,7 @@ def by_command(file, *arguments, environment={}):
 
 
 def resumed(scene, half: float) -> str:
-    """Half of the run on one thread, the rest on two."""
+    """The hash of a run whose first half uses one thread, and the rest two."""
     import carom
 
     first = carom.Simulation(scene, threads=1)

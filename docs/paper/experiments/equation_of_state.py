@@ -1,7 +1,7 @@
-"""Compressibility factor of equal disks, by the virial of collisions and by their number, against published values.
+"""Compressibility factor of equal disks, from the virial of collisions and from their number, against published values.
 
-Z = P V / (N kT). The series of Clisby and McCoy (2006) is continued by a Pade approximant; at 0.67 Monte
-Carlo values are better: those of a system as small as it was there.
+Z = P V / (N kT). The series of Clisby and McCoy (2006) is continued by a Pade approximant. At 0.67 a Monte Carlo value
+is better; for it the system is as small as the published one.
 """
 
 import math
@@ -14,13 +14,13 @@ from experiments.gas import periodic_gas
 DISKS = 4096
 PACKINGS = [0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.67]
 BLOCKS = 20
-COLLISIONS_A_DISK = 400  # in a block
+COLLISIONS_A_DISK = 400  # in each block
 VIRIAL = [1, 2, 3.12802, 4.25785, 5.33690, 6.36296, 7.35186, 8.31910, 9.27214, 10.21629]
-MONTE_CARLO = {0.67: (870, 9.36234)}  # Li et al. (2022): of so many disks
+MONTE_CARLO = {0.67: (870, 9.36234)}  # Li et al. (2022), with the number of disks
 
 
 def pade(coefficients: list, packing: float, below: int = 5) -> float:
-    """The series as a ratio of polynomials, the lower one of degree `below`."""
+    """The series as a ratio of two polynomials; the denominator has degree `below`."""
     c = np.array(coefficients, float)
     above = len(c) - 1 - below
     columns = range(1, below + 1)
@@ -35,7 +35,8 @@ def published(packing: float) -> float:
 
 
 def uncertainty(packing: float) -> float:
-    """Of the published value: 3e-5 by Li et al., elsewhere how far approximants of other degrees are from the one taken."""
+    """The uncertainty of the published value: 3e-5 by Li et al., otherwise the greatest difference of approximants of
+    other degrees."""
     if packing in MONTE_CARLO:
         return 3e-5
     return max(abs(pade(VIRIAL, packing, below) - published(packing)) for below in (3, 4, 6))
@@ -46,8 +47,8 @@ def disks_of(packing: float) -> int:
 
 
 def of_finite_box(packing: float) -> float:
-    """What the series, of an infinite system, has more than a periodic box with a fixed number of disks: phi M' / (2 N M)
-    with M = d (phi Z) / d phi (Lebowitz and Percus 1961)."""
+    """The excess of the series, which is for an infinite system, over a periodic box with a fixed number of disks: phi
+    M' / (2 N M) with M = d (phi Z) / d phi (Lebowitz and Percus 1961)."""
     if packing in MONTE_CARLO:
         return 0.0
     h = 1e-3
@@ -56,7 +57,7 @@ def of_finite_box(packing: float) -> float:
 
 
 def collision_rate(z: float) -> float:
-    """Of a disk, at temperature 1."""
+    """The rate for each disk, at temperature 1."""
     return 4.0 * (z - 1.0) / math.sqrt(math.pi)
 
 
@@ -99,7 +100,7 @@ def run() -> list:
 
 
 def deviation(row: dict, of: str) -> float:
-    """From the published value."""
+    """The deviation from the published value."""
     return row[of] + of_finite_box(row["packing"]) - published(row["packing"])
 
 

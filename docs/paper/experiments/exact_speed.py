@@ -1,5 +1,5 @@
-"""Collisions a second of the exact method beside a plain event-driven simulation (one heap, cells), in turns:
-`carom_figures DIR exact`."""
+"""Collisions per second of the exact method and of a plain event-driven simulation (one heap, cells), measured in
+turns: `carom_figures DIR exact`."""
 
 import csv
 

@@ -11,7 +11,7 @@ def periodic_gas(
     dt: float = 0.01,
     **tables,
 ) -> dict:
-    """In a square periodic box; tables add to those of the scene."""
+    """A gas in a square periodic box; tables are added to those of the scene."""
     sides = {side: "periodic" for side in ("left", "right", "bottom", "top")}
     scene = {
         "seed": seed,

@@ -1,4 +1,4 @@
-"""Memory at peak of a run of a million disks: `carom_figures DIR memory`."""
+"""Peak memory of a run with a million disks: `carom_figures DIR memory`."""
 
 import csv
 

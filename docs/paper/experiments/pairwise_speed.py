@@ -1,4 +1,5 @@
-"""A step of pairwise for a million disks beside the time that copying their state takes: `carom_figures DIR gas`."""
+"""The time of a step of pairwise for a million disks, compared with that of copying their state: `carom_figures DIR
+gas`."""
 
 import csv
 

@@ -13,13 +13,14 @@ RELEASE = ROOT / "build" / "release"
 
 @contextmanager
 def scratch():
-    """A folder that is gone afterwards."""
+    """A folder that is removed afterwards."""
     with tempfile.TemporaryDirectory(prefix="carom_paper_") as folder:
         yield Path(folder)
 
 
 def run(program, *arguments, environment={}, statuses=(0,)) -> str:
-    """What it printed on standard output. Raises RuntimeError with its words on another exit status."""
+    """The program's standard output. Raises RuntimeError with its error output if the exit status is not in
+    statuses."""
     done = subprocess.run(
         [str(program), *map(str, arguments)], capture_output=True, text=True, env=os.environ | environment
     )
@@ -29,7 +30,8 @@ def run(program, *arguments, environment={}, statuses=(0,)) -> str:
 
 
 def summary(scene, *arguments, environment={}, statuses=(0,)):
-    """The summary of `carom run` of a scene, a file or the text of one; None where it printed none (statuses has 2)."""
+    """The summary of `carom run` for a scene, which is a file or text; None if nothing was printed (if statuses
+    contains 2)."""
     with scratch() as folder:
         if not isinstance(scene, Path):
             (folder / "scene.toml").write_text(scene)

@@ -1,4 +1,4 @@
-"""Ranks on this machine beside a model of their parts: `./carom bench ranks`."""
+"""Ranks on this machine, compared with a model of their parts: `./carom bench ranks`."""
 
 import csv
 

@@ -1,4 +1,5 @@
-"""Elastic motion reversed: how far disks come out from where they began, which grows by the largest Lyapunov exponent."""
+"""Reversed elastic motion: the distance of disks from their start afterwards, which grows with the largest Lyapunov
+exponent."""
 
 import math
 
@@ -9,12 +10,13 @@ import tex_numbers
 from experiments.gas import periodic_gas
 
 DISKS, SEEDS = 256, 8
-LYAPUNOV = {0.1: 1.51, 0.3: 2.91, 0.5: 4.76}  # docs/reference_values.md
-GROWTHS = [2, 5, 8, 11, 14, 17, 20, 23, 26, 29, 32]  # lambda T
+LYAPUNOV = {0.1: 1.51, 0.3: 2.91, 0.5: 4.76}  # from docs/reference_values.md
+GROWTHS = [2, 5, 8, 11, 14, 17, 20, 23, 26, 29, 32]  # values of lambda T
 
 
 def error(packing: float, seed: int, turn: float) -> tuple:
-    """The root mean square distance after there and back, in diameters, and the run's hash."""
+    """The root mean square distance after going there and back, in diameters, the time of turning, and the run's
+    hash."""
     import carom
 
     sim = carom.Simulation(carom.Scene(periodic_gas(DISKS, packing, seed, t_end=4.0 * turn + 4.0)), threads=1)
@@ -51,7 +53,7 @@ def run() -> list:
 
 
 def curve(rows: list, packing: float) -> list:
-    """lambda T and the geometric mean of the distance, of each growth."""
+    """Points of lambda T and the geometric mean of the distance, for each growth."""
     points = []
     for growth in GROWTHS:
         of = [row for row in rows if row["packing"] == packing and row["growth"] == growth]
@@ -65,7 +67,7 @@ def curve(rows: list, packing: float) -> list:
 
 
 def slope(rows: list, packing: float) -> float:
-    """Of the logarithm of the distance over lambda T, where the distance has grown and is still small."""
+    """The slope of the logarithm of the distance over lambda T, where the distance has grown and is still small."""
     points = [(t, math.log(d)) for t, d in curve(rows, packing) if t > 4.0 and d < 1e-2]
     return float(np.polyfit(*zip(*points), 1)[0])
 

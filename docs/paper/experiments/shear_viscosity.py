@@ -1,4 +1,4 @@
-"""The viscosity of elastic disks in a homogeneous shear flow against that of Enskog's theory."""
+"""The viscosity of elastic disks in a homogeneous shear flow, compared with Enskog's theory."""
 
 import math
 
@@ -12,7 +12,8 @@ PACKINGS = [0.1, 0.2, 0.3]
 
 
 def enskog(packing: float) -> float:
-    """Over the root of the temperature, diameter 1 and mass 1 (Gass 1971; Garcia-Rojo, Luding and Brey 2006)."""
+    """The viscosity divided by the root of the temperature, for diameter 1 and mass 1 (Gass 1971; Garcia-Rojo, Luding
+    and Brey 2006)."""
     chi = (1.0 - 7.0 * packing / 16.0) / (1.0 - packing) ** 2
     dilute = 1.022 / (2.0 * math.sqrt(math.pi))
     return dilute * (1.0 / chi + 2.0 * packing + (1.0 + 8.0 / math.pi) * chi * packing * packing)

@@ -1,4 +1,4 @@
-"""The stability suite: verdicts of all cases and methods, and where a line of disks collapses."""
+"""The stability suite: verdicts of all cases and methods, and the limit at which a line of disks collapses."""
 
 import csv
 import math
@@ -17,7 +17,7 @@ def run() -> list:
         run_program(suite, "--maps", folder)
         table = list(csv.DictReader((folder / "stability.csv").open()))
         collapse = list(csv.DictReader((folder / "stability_collapse.csv").open()))
-    verdicts = {}  # several figures of a case have the same
+    verdicts = {}  # several figures of a case have the same verdict
     for row in table:
         key = (row["case"], row["method"])
         verdicts.setdefault(
@@ -59,7 +59,7 @@ def numbers(rows: list) -> dict:
 
 
 def boundary(restitution: float) -> float:
-    """Disks on a line collapse above this number (McNamara and Young 1992)."""
+    """The number of disks above which a line of disks collapses (McNamara and Young 1992)."""
     return math.log(4.0 / (1.0 - restitution)) / (1.0 - restitution)
 
 

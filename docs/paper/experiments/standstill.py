@@ -1,4 +1,5 @@
-"""How many frames rollback takes to advance by dt, as the number of disks grows: one contact holds all back."""
+"""The number of frames that rollback needs to advance by dt, as the number of disks grows: one contact delays all
+disks."""
 
 import gnuplot
 import tex_numbers
