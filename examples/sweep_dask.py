@@ -3,7 +3,7 @@
     sweep_dask.py                       # two workers on this machine
     sweep_dask.py tcp://head:8786       # those of a cluster: `dask-scheduler` on head, `dask-worker tcp://head:8786` elsewhere
 
-Each run is on one thread of a worker, and comes to the same bits on any of them.
+Each run uses one thread of a worker, and gives the same bits on any of them.
 """
 
 import contextlib
@@ -33,7 +33,7 @@ def compressibility(scene):
 def main():
     fractions, seeds = (0.1, 0.2, 0.3), (1, 2, 3, 4)
     scenes = [gas(f, seed) for f in fractions for seed in seeds]
-    with contextlib.ExitStack() as open_until_done:  # a cluster of others goes on
+    with contextlib.ExitStack() as open_until_done:  # a cluster given by its address is not stopped
         address = sys.argv[1] if len(sys.argv) > 1 else open_until_done.enter_context(
             LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None))
         client = open_until_done.enter_context(Client(address))
