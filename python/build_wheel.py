@@ -17,7 +17,8 @@ build = root / "build" / f"pip-{sys.implementation.cache_tag}"
 
 
 def _project() -> dict:
-    """Name, version and so on from pyproject.toml. Without tomllib, before Python 3.11, only plain strings are read."""
+    """Name, version and so on from pyproject.toml. Python before 3.11 has no tomllib, so only plain strings are
+    read."""
     text = (root / "pyproject.toml").read_text()
     return dict(re.findall(r'^(name|version|description|requires-python) = "(.*)"$', text, re.MULTILINE))
 

@@ -1,5 +1,5 @@
-"""Reads the analysis.h5 of a run of analysis_run_test by h5py and compares it with the run's own series.csv and against
-itself. Says how many samples there are."""
+"""Reads the analysis.h5 of a run of analysis_run_test with h5py, compares it with the run's series.csv, checks that it
+is consistent, and prints the number of samples."""
 import csv
 import sys
 

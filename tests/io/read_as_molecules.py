@@ -1,9 +1,10 @@
-"""Reads a run's trajectory.xyz by ASE and MDAnalysis, and its trajectory.h5 (dimensions = 3) by MDAnalysis, if there
-is one, and compares them with the numbers in the text. Called by trajectory_programs_test; says what differs."""
+"""Reads a run's trajectory.xyz with ASE and MDAnalysis, and its trajectory.h5 (dimensions = 3) with MDAnalysis, if
+there is one, and compares them with the numbers in the text. Called by trajectory_programs_test; reports
+differences."""
 import sys
 import warnings
 
-warnings.simplefilter("ignore")  # of MDAnalysis: masses that it cannot guess from an element
+warnings.simplefilter("ignore")  # MDAnalysis warns of masses that it cannot guess from an element
 
 import ase.io  # noqa: E402
 import h5py  # noqa: E402
@@ -12,7 +13,7 @@ import numpy  # noqa: E402
 
 
 def read_text(path):
-    """Frames as (header, columns by name): what stands in the file, taken apart by nothing but blanks."""
+    """Frames as (header, columns by name), from the file's text, split only at spaces."""
     frames = []
     with open(path, encoding="ascii") as file:
         while line := file.readline():

@@ -1,5 +1,5 @@
-"""Reads a run's trajectory.xyz and the trajectory.h5 of the same run, by itself and by h5py, and compares
-them bit by bit. Called by trajectory_h5md_test with the two files and the scene of the run; says what differs."""
+"""Reads a run's trajectory.xyz, with its own code, and the trajectory.h5 of the same run, with h5py, and compares them
+bit by bit. Called by trajectory_h5md_test with both files and the scene of the run; reports differences."""
 import struct
 import sys
 import xml.etree.ElementTree
@@ -9,7 +9,7 @@ import numpy
 
 
 def read_xyz(path):
-    """Frames as (time, periodic, {id: (x, y, vx, vy, radius, mass)}), by the rules of extended XYZ alone."""
+    """Frames as (time, periodic, {id: (x, y, vx, vy, radius, mass)}), using only the rules of extended XYZ."""
     frames = []
     with open(path, encoding="ascii") as file:
         while line := file.readline():
