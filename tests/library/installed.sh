@@ -1,10 +1,11 @@
 #!/bin/bash
-# Installs a build to an empty prefix and builds examples/ against it as users would; every way gives the same hashes.
-#   installed.sh BUILD SOURCE [sources]     sources: once more with Carom's sources by add_subdirectory, which takes long
+# Installs a build to an empty prefix and builds examples/ with it as users would; every way must give the same hashes.
+#   installed.sh BUILD SOURCE [sources]     with sources: again from Carom's sources, by add_subdirectory (slow)
 set -euo pipefail
 build=$1 source=$2
 work=$(mktemp -d)
-# Beside the build, and warnings as there: the compiler cache then has what that build compiled.
+# The sources are built in a folder beside the build, and with its warnings, so that the compiler cache has the files
+# that it compiled.
 part=$(realpath "$build")-sources
 trap 'rm -rf "$work" "$part" "$part.log"' EXIT
 rm -rf "$part"
@@ -13,7 +14,7 @@ examples="hello hello_cpp billiards hopper rollback"
 
 say() { printf '%s\n' "$*"; }
 
-# Everything below the prefix is found there after it was moved.
+# The installed tree is moved, and must still find everything below its prefix.
 cmake --install "$build" --prefix "$work/first" >/dev/null
 mv "$work/first" "$prefix"
 libraries=$(dirname "$(find "$prefix" -name libcarom.so)")
@@ -23,7 +24,7 @@ for file in bin/carom include/carom/carom.h include/carom/carom.hpp share/man/ma
 done
 readelf -d "$libraries/libcarom.so" | grep -q 'SONAME.*\[libcarom\.so\.[0-9]*\]' || { say "libcarom.so has no soname" && exit 1; }
 
-# The hashes that a folder of programs prints.
+# The hashes that the programs in a folder print.
 hashes() { # FOLDER
     local example
     for example in $examples; do
@@ -31,7 +32,7 @@ hashes() { # FOLDER
     done
 }
 
-# Silent but where it fails.
+# Prints nothing unless it fails.
 configure_and_build() { # SOURCE FOLDER OPTION...
     if ! { cmake -S "$1" -B "$2" -G Ninja "${@:3}" && cmake --build "$2"; } >"$2.log" 2>&1; then
         cat "$2.log" >&2
@@ -47,7 +48,7 @@ with_cmake() { # FOLDER OPTION...
 with_pkg_config() { # FOLDER FLAG...
     local folder=$work/$1 example file flags
     mkdir "$folder"
-    # shellcheck disable=SC2207  # flags are words
+    # shellcheck disable=SC2207  # the flags are to be split into words
     flags=($(PKG_CONFIG_PATH=$libraries/pkgconfig pkg-config --cflags --libs carom))
     for example in $examples; do
         file=$(echo "$source/examples/$example".c*)
@@ -72,12 +73,12 @@ same "-ffast-math" "$(with_pkg_config fast -ffast-math)"
 same "find_package" "$(with_cmake "$work/installed" -DCMAKE_PREFIX_PATH="$prefix")"
 [[ ${3-} != sources ]] || same "add_subdirectory" "$(with_cmake "$part" -DCAROM_SOURCE="$source" -DCAROM_WERROR=ON)"
 
-# Sources in a project that says nothing of optimisation are compiled without, and not in silence.
+# In a project that does not set an optimisation the sources are compiled without, and CMake says so.
 [[ $(cmake -S "$source/examples" -B "$work/untyped" -G Ninja -DCAROM_SOURCE="$source" 2>&1) == *"without optimisation"* ]] ||
     { say "no word of a build without optimisation" && exit 1; }
 say "a build without optimisation: said"
 
-# The static library, with all that it needs, in a project of both languages and in one in C alone.
+# The static library, with all the libraries that it needs, in a project with C and C++ and in one with C only.
 for languages in "C CXX" C; do
     cat >"$work/CMakeLists.txt" <<EOP
 cmake_minimum_required(VERSION 3.25)
@@ -92,14 +93,14 @@ EOP
 done
 say "static library: the same hash"
 
-# A program that takes the shared library needs none of what Carom is built on, headers or .pc files.
+# A program that uses the shared library needs no headers or .pc files of the libraries that Carom uses.
 alone=$(PKG_CONFIG_LIBDIR=$libraries/pkgconfig PKG_CONFIG_PATH='' pkg-config --cflags --libs carom) || { say "carom.pc asks for other packages" && exit 1; }
 [[ $alone != *cairo* ]] || { say "carom.pc gives flags of other packages: $alone" && exit 1; }
 say "pkg-config: without other packages"
-# Where MPI is there, --ranks works with what is installed.
+# If there is MPI, --ranks works with the installed program.
 if [[ -x $build/carom-mpi && ! -x $prefix/bin/carom-mpi ]]; then say "carom-mpi is not installed" && exit 1; fi
 
-# Completion offers the commands and the options that --help has.
+# Completion offers the commands and the options of --help.
 complete_with() { # WORDS...
     bash -c "source '$prefix/share/bash-completion/completions/carom'"'
         COMP_WORDS=("$@") COMP_CWORD=$(($# - 1)); _carom; printf "%s " "${COMPREPLY[@]}"' bash "$@"

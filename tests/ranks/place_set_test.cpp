@@ -1,3 +1,4 @@
+// A set of places: it numbers them in ascending order, and forgets them when it is cleared.
 #include "parallel/slabs/place_set.hpp"
 
 #include <gtest/gtest.h>

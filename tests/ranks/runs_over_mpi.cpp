@@ -1,5 +1,5 @@
-// carom run and resume with --ranks: the files of one process, whatever the number of ranks, stopped and taken up
-// again.
+// carom run and resume with --ranks write the files of one process for any number of ranks, also if a run is stopped
+// and resumed.
 #include "tests/ranks/ranks_run.hpp"
 
 namespace carom {
@@ -32,7 +32,8 @@ TEST_F(RanksRun, LeavesTheFilesOfOneProcess) {
   }
 }
 
-// As where the module of Open MPI is not loaded: this build has its program of several ranks.
+// mpiexec is not in PATH, for example because a cluster's module of Open MPI is not loaded; this build does have the
+// program for several ranks.
 TEST_F(RanksRun, SayWhereMpiexecIsMissing) {
   const Outcome o = shell("PATH=/nonexistent $C run scene.toml --ranks 2 -o out");
   EXPECT_EQ(o.status, 2);
@@ -41,8 +42,8 @@ TEST_F(RanksRun, SayWhereMpiexecIsMissing) {
             "openmpi-bin\n");
 }
 
-// The other format, of some disks and of those in a part of the box; with columns of a group that has a
-// name, and with what is measured of disks and of pairs.
+// Trajectories in the other format, of a selection of disks and of those in a part of the box, with columns of a named
+// group, and with measurements of disks and of pairs.
 TEST_F(RanksRun, LeavesTheTrajectoryOfOneProcess) {
   const std::string run =
       "run scene.toml --quiet --threads 1 --set output.trajectory=h5md --set disks.0.name=gas --set "
@@ -89,8 +90,7 @@ TEST_F(RanksRun, LeavesTheFilesOfOneProcessWithExact) {
   EXPECT_EQ(summary("one"), summary("parts"));
 }
 
-// Two ranks were bound to a core each: all threads of a rank shared it, and so did ffmpeg. mpiexec starts nproc in
-// their place.
+// No rank is bound to one core, which its threads and ffmpeg would have to share. nproc is run in place of each rank.
 TEST_F(RanksRun, EachMayUseAllCores) {
   write("mpiexec", "#!/bin/sh\nexec \"$MPIEXEC\" -q -n 2 --allow-run-as-root nproc\n");
   std::filesystem::permissions(at("mpiexec"), std::filesystem::perms::owner_all);
@@ -98,7 +98,7 @@ TEST_F(RanksRun, EachMayUseAllCores) {
   EXPECT_EQ(shell("MPIEXEC=$(command -v mpiexec) PATH=.:$PATH $C run scene.toml -o out --ranks 2").out, cores + cores);
 }
 
-// A pile that lands, with pictures of it; what contacts bear goes on from the checkpoint, too.
+// A pile that lands, with pictures of it. The loads of its contacts continue from the checkpoint, too.
 TEST_F(RanksRun, LeavesTheFilesOfOneProcessWithAPile) {
   const std::string run =
       "run scene.toml --quiet --threads 1 --set physics.gravity=40 --set physics.restitution=0.5 --set box.width=12 "
@@ -110,7 +110,7 @@ TEST_F(RanksRun, LeavesTheFilesOfOneProcessWithAPile) {
   for (const char* file : {"trajectory.xyz", "series.csv", "velocity.svg", "energy.svg"}) {
     EXPECT_TRUE(text_of(at("one") / file) == text_of(at("r2") / file)) << file;
   }
-  // Its bytes tell how many threads ffmpeg had, and so how many cores it found.
+  // The bytes of a movie depend on the number of threads of ffmpeg, so pixels are compared.
   const auto pixels = [&](const std::string& folder) {
     return shell("ffmpeg -loglevel error -i " + folder + "/movie.mp4 -f md5 -").out;
   };
@@ -124,7 +124,7 @@ TEST_F(RanksRun, LeavesTheFilesOfOneProcessWithAPile) {
   EXPECT_EQ(summary("one")["state_hash"], summary("r2")["state_hash"]);
 }
 
-// No rank has all disks; what is wrong with a lattice is said as one process says it.
+// No rank has all disks of the lattice; errors in a lattice are reported as by one process.
 TEST_F(RanksRun, ALatticeIsMadeByAllRanks) {
   const std::string lattice =
       " --quiet --set disks.0.positions=hexagonal --set disks.0.count=300 --set output.trajectory=none "
@@ -190,7 +190,7 @@ TEST_F(RanksRun, WhatRanksCannotDoIsSaidInOneLine) {
   EXPECT_EQ(summary("one")["state_hash"], summary("out")["state_hash"]);
 }
 
-// Not a run of three that was asked to have two, nor one of one.
+// If mpirun has started three ranks, --ranks must not ask for two or for one.
 TEST_F(RanksRun, AsManyRanksAsMpirunHasStartedOrNone) {
   const std::string mpirun =
       "OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1 OMPI_ALLOW_RUN_AS_ROOT=1 "
@@ -208,7 +208,7 @@ TEST_F(RanksRun, AsManyRanksAsMpirunHasStartedOrNone) {
   EXPECT_EQ(shell(mpirun + "3 $C-mpi resume out --quiet").status, 0);
 }
 
-// What carom check says of ranks, against what their run then says.
+// The memory and messages that carom check predicts for ranks are compared with those of the run.
 TEST_F(RanksRun, CheckForeseesMemoryAndMessages) {
   const std::string size = " --set disks.0.count=60000 --set box.width=400 --set box.height=600 --t-end 0.5 ";
   for (const std::string ranks : {"2", "4"}) {
@@ -234,7 +234,7 @@ TEST_F(RanksRun, CheckForeseesMemoryAndMessages) {
   }
 }
 
-// Of four ranks that share 10^6 disks on a lattice, rank 0 needs less than so many bytes more than any other.
+// Rank 0 of four ranks, which share 10^6 disks, needs less than `more` bytes more than any other rank.
 void expect_even_peaks(const Outcome& run, double more) {
   ASSERT_EQ(run.status, 0) << run.err;
   const auto peaks = nlohmann::json::parse(run.out)["traffic"]["peak_bytes"];
@@ -245,8 +245,8 @@ const std::string million_on_four =
     "run scene.toml --quiet --json --ranks 4 --threads 1 --set box.width=2000 --set box.height=1000 "
     "--set disks.0.count=1000000 --set disks.0.positions=square --set disks.0.radius=0.4 --t-end 0.06 -o out ";
 
-// Checkpoints are written on the way and at the end while each disk stays where it is: rank 0 needs no more memory than
-// another rank. All disks of this run are 36 MB.
+// Checkpoints during a run and at its end are written while each disk stays on its rank, so rank 0 needs no more memory
+// than another rank. All disks of this run take 36 MB.
 TEST_F(RanksRun, NoRankHasAllDisksForACheckpoint) {
   expect_even_peaks(carom(million_on_four + "--set output.trajectory=none --set output.series=false "
                                             "--set 'output.checkpoint=\"0.02 s\"'"),
@@ -254,7 +254,7 @@ TEST_F(RanksRun, NoRankHasAllDisksForACheckpoint) {
   EXPECT_GT(fs::file_size(at("out/checkpoint.carom")), 36'000'000U);
 }
 
-// As dense as a gas of packing fraction 0.5, where most trials are in vain and the ranks learn where there is room.
+// At packing fraction 0.5 most trials fail, and the ranks have to find out where there is room.
 TEST_F(RanksRun, NoRankHasAllDisksWhileTheyArePlaced) {
   const std::string run =
       "run scene.toml --quiet --json --ranks 4 --threads 1 --set box.width=1000 --set box.height=1000 "
@@ -263,8 +263,8 @@ TEST_F(RanksRun, NoRankHasAllDisksWhileTheyArePlaced) {
   expect_even_peaks(carom(run + "--set 'disks.0.radius={uniform=[0.2,0.5]}' -o mixed"), 12e6);
 }
 
-// The same of frames: what rank 0 has of all disks are counts of their rounds, 8 MB, and some megabytes of pieces; HDF5
-// and a movie's picture take their share. One that had all disks would take 110 MB more than another rank.
+// The same for frames: of all disks rank 0 only has the counts of their rounds, 8 MB, and some megabytes of pieces;
+// HDF5 and a movie's picture need memory, too. If it had all disks it would take 110 MB more than another rank.
 TEST_F(RanksRun, NoRankHasAllDisksForAFrame) {
   expect_even_peaks(
       carom(million_on_four +
@@ -276,7 +276,7 @@ TEST_F(RanksRun, NoRankHasAllDisksForAFrame) {
       45e6);
 }
 
-// Of each run several ranks: started by the sweep, and by the script that it writes for Slurm.
+// Each run of a sweep has several ranks, started by the sweep itself or by the script that it writes for Slurm.
 TEST_F(RanksRun, ASweepOfThemLeavesTheTableOfOneProcess) {
   const std::string sweep = "sweep scene.toml --over run.t_end=0.1,0.2 ";
   ASSERT_EQ(carom(sweep + "-o one").status, 0);

@@ -1,7 +1,7 @@
-// carom_stability: runs the suite and writes what docs/ shows of it.
+// carom_stability: runs the suite and writes the tables and pictures that docs/ shows.
 //   carom_stability --table DIR    all cases: DIR/stability.md and stability.csv
 //   carom_stability --maps DIR     DIR/stability_dt.svg, stability_collapse.svg and their numbers as .csv
-//   carom_stability --case NAME    the cases whose names begin so, printed
+//   carom_stability --case NAME    prints the cases whose names begin with NAME
 #include <fmt/format.h>
 
 #include <cstdio>
