@@ -10,7 +10,7 @@ constexpr std::size_t disks_a_block = 65536;
 
 }  // namespace
 
-// Each block of disks is counted by parts, and then written behind the blocks before it.
+// Each block counts its disks by part first, and then writes them behind those of the blocks before it.
 std::vector<DisksOfPart> disks_of_parts(const Disks& disks, const BoxCut& cut, const Executor& executor) {
   const std::size_t n = disks.size();
   const std::size_t parts = cut.parts();

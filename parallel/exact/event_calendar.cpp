@@ -8,17 +8,17 @@ namespace carom {
 
 namespace {
 
-// Pages for each event that is expected. An entry is moved two or three times a collision, so that one or two are on
-// the present page.
+// Pages for each expected event. An entry is moved two or three times a collision, so with this number one or two
+// entries are on the present page.
 constexpr double pages_per_event = 1.6;
 constexpr std::size_t most_pages_a_disk = 8;
 constexpr std::size_t few_pages = 64;
-// Where there are many disks: the number of parts of the time that are divided into pages one after the other.
+// With many disks: the number of parts of the time that are divided into pages one after the other.
 constexpr std::size_t parts = 4;
-// With fewer pages than one for so many disks (an event for eight) the time is not divided in parts, unless pages are
-// shortened, and nothing is announced: going through all disks again, and page by page, would take longer.
+// With fewer pages than one for this many disks (an event for eight of them) the time is not divided into parts, unless
+// pages are shortened, and nothing is announced: visiting all disks again, page by page, would take longer.
 constexpr std::size_t disks_of_few_pages = 5;
-// Pages are shortened where the events of a page that has too many are spread over this share of it or more.
+// Pages are shortened if the events of a page with too many are spread over at least this share of it.
 constexpr double spread_share = 0.125;
 constexpr double events_a_page = 2.0;
 
@@ -42,7 +42,8 @@ void EventCalendar::begin(double start, double end, const CalendarEntries& entri
   begin_part(start, end > start ? static_cast<double>(pages) / (end - start) : 0.0, pages);
 }
 
-// pages: how many this part and those to come have together. Events beyond this part stay with those after the end.
+// pages: the number of pages of this part and of those to come. Events beyond this part stay on the list of those after
+// the end.
 void EventCalendar::begin_part(double start, double pages_per_time, std::size_t pages) {
   const std::size_t here = std::min(pages, pages_a_part_);
   set_pages(start, pages_per_time, here);
@@ -50,7 +51,7 @@ void EventCalendar::begin_part(double start, double pages_per_time, std::size_t 
   if (later_pages_ > 0) last_page_ = static_cast<double>(here);
 }
 
-// False, without a change, if this is the last part.
+// Returns false, without a change, if this is the last part.
 bool EventCalendar::begin_next_part() {
   if (later_pages_ == 0) return false;
   begin_part(start_ + last_page_ / pages_per_time_, pages_per_time_, later_pages_);
@@ -58,7 +59,7 @@ bool EventCalendar::begin_next_part() {
   return true;
 }
 
-// Those in transit, too.
+// Enters all disks of the calendar again, also those whose entries are in transit.
 void EventCalendar::enter_again() {
   insert_all([this](std::uint32_t disk) { return holds(disk); });
 }
@@ -82,9 +83,9 @@ void EventCalendar::set_pages(double start, double pages_per_time, std::size_t p
   followed_begin_ = followed_end_ = 0;
 }
 
-// Divides the time that is left anew, so that the events of the present page fall on many pages. Events beyond the
-// largest number of pages stay together on the last one, until that is divided in turn. False, without a change, where
-// it would not help.
+// Divides the remaining time anew, so that the events of the present page are spread over many pages. Events beyond the
+// largest number of pages stay together on the last one until that is divided in turn. Returns false, without a change,
+// if it would not help.
 bool EventCalendar::shorten_pages() {
   collect_page();
   const auto earlier = [&](std::uint32_t a, std::uint32_t b) { return node_[a].time < node_[b].time; };
@@ -102,7 +103,7 @@ bool EventCalendar::shorten_pages() {
   return true;
 }
 
-// None of its entries is in transit: these are for later pages, and turn_page() delivers them in time.
+// No entry of the present page is in transit: only entries for later pages are, and turn_page() delivers them in time.
 void EventCalendar::collect_page() {
   crowded_.clear();
   for (std::uint32_t k = first_[page_]; k != end_of_list_; k = node_[k].next) crowded_.push_back(k);

@@ -12,8 +12,8 @@ namespace carom {
 
 struct NextEvent {
   double time = never;
-  Partner partner;  // of the disk whose event it is
-  // A contact of the disk lasts (WindowState::close): the rounding at the next window's start may give it other events.
+  Partner partner;  // of the disk whose event this is
+  // The disk is in a lasting contact (WindowState::close): rounding at the next window's start may change its events.
   bool lasting = false;
 };
 
@@ -29,12 +29,12 @@ class EventPredictor {
     see_far();
   }
 
-  // Does the kernel alone find the disk's first event, unless that is ambiguous?
+  // Does the kernel alone find the disk's first event, unless the result is ambiguous?
   [[gnu::always_inline]] bool kernel_tells(const ListRow& row) const {
     return ((row.sides | more_than_neighbours_) & ListRow::not_plain) == 0;
   }
-  // If so, its first contact. newest: no neighbour's segment starts later than the disk's own. near_border: which of
-  // the two relist distances applies to it.
+  // The first contact of a disk for which kernel_tells(). newest: no neighbour's segment starts later than the disk's
+  // own. near_border: which of the two relist distances applies to the disk.
   template <bool newest>
   FirstContact first_in(const ListRow& row, const DiskRecord& own, bool near_border) const {
     const auto kernel = row.is_inside() ? (newest ? kernels_.inside_newest : kernels_.inside)
@@ -46,11 +46,11 @@ class EventPredictor {
     return Partner::disk(i + static_cast<std::uint32_t>(std::int32_t{row.offset[place]}));
   }
 
-  // The earliest event of disk i with a side, an obstacle or a neighbour, up to the horizon, if all stay on their
+  // The earliest event of disk i with a side, an obstacle or a neighbour, up to the horizon, if all disks stay on their
   // present paths.
   [[gnu::hot]] NextEvent earliest(std::uint32_t i) const;
 
-  // To be called with v^2 of every segment that begins.
+  // Must be called with v^2 of every segment that begins.
   void note_speed(double v2) {
     if (v2 <= fastest2_) [[likely]]
       return;
@@ -76,9 +76,9 @@ class EventPredictor {
   const WindowState* window_;
   const NeighbourLists* lists_;
   PredictionKernels kernels_;
-  std::array<PredictionConstants, 2> constants_;  // elsewhere, and near a border
+  std::array<PredictionConstants, 2> constants_;  // for disks elsewhere, and for those near a border
   double fastest2_;                               // largest v^2 so far
-  // Set where far_ is: the kernel alone does not find all events then. As bits of ListRow::sides.
+  // Bits of ListRow::sides; set if far_ is set, since the kernel alone does not find all events then.
   std::uint8_t more_than_neighbours_ = 0;
   bool far_ = false;  // may a disk move so far that images beyond the nearest one, or crossing events, matter?
 };

@@ -22,9 +22,9 @@ PairKind kind_of_pairs(const WindowState& window) {
 }
 
 constexpr Count events_between_polls = 4096;
-// The calendar is laid out for at most so many; windows aim at two.
+// The calendar is laid out for at most this many events a disk; windows aim at two.
 constexpr double most_events_a_disk = 2.2;
-// Windows with less than one event for so many disks are short.
+// Windows with less than one event for this many disks count as short.
 constexpr double disks_per_event = 8.0;
 
 }  // namespace
@@ -54,11 +54,12 @@ void EventProcessor<scope>::enter_all(double events_a_disk) {
                  events_a_disk > 0.0 ? static_cast<std::size_t>(expected) + 1 : 0, window_.looks_ahead);
   const auto is_active = [this](std::uint32_t i) { return !has_regions || record_[i].progress.is_active(); };
   const CalendarEntry* const entry = window_.entry.data();
-  // In a short window most events come after its end: those disks stay out until they get another event.
+  // In a short window most events come after its end: their disks stay out of the calendar until they get another
+  // event.
   const double last_time = disks_per_event * expected < disks ? window_.length : never;
   calendar.insert_all(
       [=](std::uint32_t i) { return entry[i].time > 0.0 && entry[i].time <= last_time && is_active(i); });
-  // Disks that are due now are predicted in any order, as nothing has happened yet: all paths begin now.
+  // Disks whose events are due now may be predicted in any order: all paths begin now, and nothing has happened yet.
   for (std::uint32_t i = first; i < last; ++i) {
     if (!(entry[i].time > 0.0) && is_active(i)) predict_next_event<true, true>(i, 0.0);
   }
@@ -93,7 +94,7 @@ void EventProcessor<scope>::run() {
   worker_.fastest2 = std::max(worker_.fastest2, predictor_.fastest2());
 }
 
-// The disk whose event is the first one in the calendar.
+// Finds the disk with the first event in the calendar.
 template <Scope scope>
 inline bool EventProcessor<scope>::find_first(std::uint32_t& i, double& time) {
   const auto order = [this](std::uint32_t a, std::uint32_t b) { return comes_first(a, b); };
@@ -152,11 +153,11 @@ void EventProcessor<scope>::run_border() {
   }
 }
 
-// Does the event of disk a come before that of disk b, which is at the same time? In canonical order; what is not a
-// contact comes first.
+// Does the event of disk a come before that of disk b at the same time? The order is the canonical one, in which
+// anything but a contact comes first.
 template <Scope scope>
 bool EventProcessor<scope>::comes_first(std::uint32_t a, std::uint32_t b) const {
-  // Mostly it is one event: the two touch each other.
+  // In most cases the two events are the same one: the two disks touch each other.
   if (record_[a].partner.is(b) && record_[b].partner.is(a)) [[likely]]
     return false;
   QueuedEvent first{0.0, 0, 0, a};
@@ -166,14 +167,14 @@ bool EventProcessor<scope>::comes_first(std::uint32_t a, std::uint32_t b) const 
   return event_order(first, second);
 }
 
-// Asks whether to go on; returns after how many events to ask again.
+// Asks whether to continue; returns the number of events after which to ask again.
 template <Scope scope>
 Count EventProcessor<scope>::poll_watch() {
   if (window_.go_on && !window_.go_on()) worker_.given_up = worker_.ended = true;
   return events_between_polls;
 }
 
-// Sets the ids of the disk's next event. An event that is invalid by now may get any ids.
+// Sets the ids of the disk's next event. If that is invalid by now, the ids may be any.
 template <Scope scope>
 void EventProcessor<scope>::name(QueuedEvent& e) const {
   const DiskRecord& f = record_[e.disk];
@@ -183,7 +184,7 @@ void EventProcessor<scope>::name(QueuedEvent& e) const {
   e.id2 = std::max(f.id, partner);
 }
 
-// The event of a disk in the calendar.
+// Processes a disk's event of the calendar.
 template <Scope scope>
 inline void EventProcessor<scope>::process(std::uint32_t i, double time) {
   const Partner partner = record_[i].partner;
@@ -194,7 +195,7 @@ inline void EventProcessor<scope>::process(std::uint32_t i, double time) {
   }
 }
 
-// No event with a disk.
+// Processes an event that is not a contact with a disk.
 template <Scope scope>
 void EventProcessor<scope>::process_other(std::uint32_t i, double time) {
   const Partner partner = record_[i].partner;
@@ -232,8 +233,8 @@ void EventProcessor<scope>::predict_next_slice(std::uint32_t i) {
   record_[i].partner = partner;
 }
 
-// Border: an event of the queue. It is invalid if the disk's events have been predicted again since. Another event may
-// then be at the same time; it has an entry of its own.
+// Border: processes an event of the queue. It is invalid if the disk's events have been predicted again since it was
+// queued. If the disk then has another event at the same time, that has its own entry.
 template <Scope scope>
 void EventProcessor<scope>::process_border(const QueuedEvent& e) {
   const std::uint32_t i = e.disk;
@@ -244,14 +245,14 @@ void EventProcessor<scope>::process_border(const QueuedEvent& e) {
   if (present.id1 == e.id1 && present.id2 == e.id2) process(i, e.time);
 }
 
-// The disk's next event, if `next` is its earliest on its present path and nothing happens to it up to `from`. The time
-// at which it has to be relisted is extrapolated only as far as gravity bends the path little. That time is later than
-// `from`, however long the window is, so that relisting always makes progress.
+// The disk's next event, if `next` is the earliest one on its present path and it has none up to `from`. The time at
+// which it must be relisted is extrapolated only as far as gravity bends the path little. That time is later than
+// `from`, however long the window is, so relisting always makes progress.
 template <Scope scope>
 ScheduledEvent EventProcessor<scope>::next_event(std::uint32_t i, double from, const NextEvent& next) {
   DiskRecord& record = record_[i];
   from = std::max(from, record.path.start);
-  // The events of lasting contacts are predicted again when the next window starts.
+  // Disks in lasting contacts are predicted again when the next window starts.
   ScheduledEvent event{next.lasting ? window_.next_start : window_.horizon, Partner::none()};
   if (next.time < event.time) {
     event = {next.time, next.partner};
@@ -266,7 +267,7 @@ ScheduledEvent EventProcessor<scope>::next_event(std::uint32_t i, double from, c
                                : lists_.earliest_relist_time(i, record.path, from, from, window_.rules.gravity, relist);
   if (scope == Scope::border && from < window_.slice_stop() && window_.in_slice(relist_at)) {
     put_off_relisting(i);
-    // Slices are so short that this does not happen.
+    // Slices are so short that this should not happen.
     if (!stays_listed(i, from, std::min(event.time, window_.slice_stop()), lists_.relist_distance_elsewhere()))
       worker_.too_fast = worker_.ended = true;
     return event;
@@ -282,7 +283,7 @@ inline bool EventProcessor<scope>::stays_listed(std::uint32_t i, double from, do
                       : lists_.stays_listed_bent(i, path, from, until, window_.rules.gravity, relist);
 }
 
-// Nearly always the kernel alone gives the first event, and the disk stays listed until then.
+// In nearly all cases the kernel alone finds the first event, and the disk stays listed until then.
 template <Scope scope>
 template <bool newest, bool enters>
 void EventProcessor<scope>::predict_next_event(std::uint32_t i, double from) {
@@ -312,7 +313,7 @@ void EventProcessor<scope>::predict_next_event(std::uint32_t i, double from) {
   }
 }
 
-// As schedule_next, for a disk that nothing happens to up to the horizon while it stays listed.
+// As schedule_next, for a disk without any contact up to the horizon while it stays listed.
 template <Scope scope>
 void EventProcessor<scope>::schedule_no_contact(std::uint32_t i, double from) {
   if (scope == Scope::border || !is_straight_) return schedule_next(i, from, {});
@@ -331,12 +332,12 @@ void EventProcessor<scope>::predict_from_all(std::uint32_t i, double from) {
 template <Scope scope>
 void EventProcessor<scope>::schedule_next(std::uint32_t i, double from, const NextEvent& next) {
   const auto [time, partner] = next_event(i, from, next);
-  // At the very end of the window, up to which its last slice goes, there is nothing left to wait for.
+  // If relisting is due at the very end of the window, which belongs to its last slice, it is done when the slice ends.
   if (scope == Scope::border && partner.is_relist() && window_.in_slice(time)) put_off_relisting(i);
   schedule(i, time, partner);
 }
 
-// For a disk whose path begins at this time. Outside the border pass, no neighbour's path begins later.
+// Predicts a disk whose path begins at this time. Outside the border pass, no neighbour's path begins later.
 template <Scope scope>
 void EventProcessor<scope>::predict_after_event(std::uint32_t i, double time) {
   predict_next_event<scope != Scope::border>(i, time);

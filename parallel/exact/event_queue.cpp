@@ -4,7 +4,7 @@ namespace carom {
 
 namespace {
 
-// Few enough to be searched for the first, enough that few pages are empty.
+// Few enough that searching for the first one is fast, enough that few pages are empty.
 constexpr std::size_t events_per_page = 3;
 
 }  // namespace

@@ -14,19 +14,18 @@ namespace carom {
 
 struct QueuedEvent {
   double time = 0.0;
-  // Of a contact: the ids of the two. Of anything else that is to be done for the disk 0 and 0, so that it comes before
-  // contacts at the same time.
+  // The ids of the two disks of a contact; 0 and 0 for any other event of the disk, so that it comes before contacts at
+  // the same time.
   DiskId id1 = 0, id2 = 0;
   std::uint32_t disk = 0;  // storage index
 };
 
-// An event is written on the page of its time, in no order; when the time of a page comes, it is made a heap if it
-// holds many events. So the cost of an event does not depend on how many there are, and hardly any memory but that of
-// the present page is touched. Invalidated events stay in the queue; the caller recognises and drops them.
+// An event is written on the page of its time, in no order; when the time of a page comes, the page is made a heap if
+// it holds many events. So the cost of an event does not depend on their number, and hardly any memory but that of the
+// present page is touched. Invalidated events stay in the queue; the caller recognises and drops them.
 class EventQueue {
  public:
-  // Empties the queue, for about `expected` events in [start, end). With more events, or other times, it is only
-  // slower.
+  // Empties the queue, for about `expected` events in [start, end). More events or other times are allowed, but slower.
   void begin(double start, double end, std::size_t expected);
 
   void push(const QueuedEvent& e) {
@@ -40,8 +39,8 @@ class EventQueue {
     }
   }
 
-  // Takes out the first event; false if there is none. name(e) sets the ids of an event whose page is turned;
-  // prefetch(disk) is called for events of the next page.
+  // Takes out the first event; returns false if there is none. name(e) is called to set the ids of the events of a page
+  // that is turned; prefetch(disk) is called for events of the next page.
   template <class Name, class Prefetch>
   bool pop(QueuedEvent& e, Name&& name, Prefetch&& prefetch) {
     while (now_.empty()) {
@@ -73,7 +72,7 @@ class EventQueue {
     std::uint32_t disk;
   };
   static constexpr std::uint32_t entries_a_chunk = 7;
-  // Two cache lines of a page.
+  // A piece of a page: two cache lines.
   struct alignas(64) Chunk {
     Entry entry[entries_a_chunk];
     std::uint32_t next;
@@ -81,14 +80,14 @@ class EventQueue {
   };
   static_assert(sizeof(Chunk) == 128);
 
-  // Searching at most so many events is faster than keeping a heap.
+  // Up to this number of events, searching is faster than keeping a heap.
   static constexpr std::size_t few_events = 12;
 
   void make_heap() {
     std::make_heap(now_.begin(), now_.end(), LaterEvent{});
     is_heap_ = true;
   }
-  // Which of them is the first cannot be predicted: no branch depends on the times, unless two are equal.
+  // The position of the first event cannot be predicted, so no branch depends on the times unless two are equal.
   std::size_t first_of_few() const {
     std::size_t first = 0;
     for (std::size_t k = 1; k < now_.size(); ++k) {
@@ -114,10 +113,10 @@ class EventQueue {
   double pages_per_time_ = 0.0;
   double last_page_ = 0.0;
   std::uint32_t next_page_ = 0;
-  std::uint32_t free_ = none;         // chunks that hold nothing, chained
-  std::vector<std::uint32_t> first_;  // chunk of each page
+  std::uint32_t free_ = none;         // unused chunks, chained
+  std::vector<std::uint32_t> first_;  // the first chunk of each page
   std::vector<Chunk> chunks_;
-  std::vector<QueuedEvent> now_;  // events left of the pages turned
+  std::vector<QueuedEvent> now_;  // the remaining events of the pages turned
   bool is_heap_ = false;
 };
 

@@ -1,4 +1,4 @@
-// Neighbour lists in a sheared box: places that go with the flow, and how long disks stay near them.
+// Neighbour lists in a sheared box: places that are carried with the flow, and how long disks stay near them.
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +8,8 @@ namespace carom {
 
 namespace {
 
-// Strain after which the lists are built anew: longer ones cost more the further disks are carried.
+// The strain after which lists are built anew: with a larger one, lists are longer and cost more, since disks are
+// carried further.
 constexpr double most_strain = 0.25;
 
 }  // namespace
@@ -27,7 +28,8 @@ void NeighbourLists::follow_flow(const Domain& box, double start, double length)
   flow_.stretch = (0.5 * tilt + std::sqrt(1.0 + 0.25 * tilt * tilt)) * (1.0 + 1e-9);
 }
 
-// The tilt is known up to whole widths over the height; it is the one that has grown since the lists were built.
+// The tilt is known only up to multiples of width over height; the one taken is the tilt that has grown since the lists
+// were built.
 void NeighbourLists::carry_flow(const Domain& box, double start) {
   const double tilt = box.shear.offset / box.height;
   const double period = box.width / box.height;
@@ -35,7 +37,8 @@ void NeighbourLists::carry_flow(const Domain& box, double start) {
   flow_.tilt = tilt + period * std::round((grown - tilt) / period);
 }
 
-// At time s of the window; inside the box. Whatever image of the disk is given, it is the same place.
+// The place at time s of the window, carried into the frame of the lists and wrapped into the box. All images of a disk
+// give the same place.
 Vec2 NeighbourLists::into_flow(double x, double y, double s) const {
   const auto inside = [](double c, double period) {
     c -= period * std::floor(c / period);
@@ -44,8 +47,8 @@ Vec2 NeighbourLists::into_flow(double x, double y, double s) const {
   return {inside(flow_.carried_back(x, y, s), box_.width), inside(y, box_.height)};
 }
 
-// A path is bent in the frame that goes with the flow: x less (tilt + rate s) (y - h / 2 + vy s) has an acceleration of
-// 2 rate vy.
+// A path is bent in the frame that is carried with the flow: x - (tilt + rate s) (y - h / 2 + vy s) has the
+// acceleration -2 rate vy.
 bool NeighbourLists::stays_listed_in_flow(std::uint32_t i, const PathSegment& path, double from, double until) const {
   if (mode_ == EngineMode::all_pairs) return true;
   const double bend = 0.25 * std::abs(flow_.rate * path.vy) * (until - from) * (until - from);
@@ -69,7 +72,7 @@ double NeighbourLists::earliest_relist_in_flow(std::uint32_t i, const PathSegmen
   const Vec2 speed{p.vx - flow_.rate * (p.y - flow_.middle) - tilt * p.vy, p.vy};
   double room = elsewhere_.length * (1.0 - 1e-9);
   double ahead = never;
-  // The straight path, less what the flow can bend it by in that time.
+  // The straight path, less the most by which the flow can bend it in that time.
   const double half_bend = std::abs(flow_.rate * p.vy);
   if (half_bend > 0.0) {
     ahead = std::max(std::sqrt(bend_share * elsewhere_.length / half_bend), until - from);

@@ -9,7 +9,7 @@ namespace carom {
 
 namespace {
 
-// Room for ghosts that are still to come: one for so many disks.
+// Room for ghosts that are still to come: one for this many disks.
 constexpr std::size_t spare_share = 32;
 
 template <class T>
@@ -107,7 +107,7 @@ void HaloPart::find_owners(const std::vector<std::size_t>& firsts, const std::ve
   }
 }
 
-// The column of x stays, as it says how many disks there are.
+// The column of x stays, since its size is the number of disks.
 void HaloPart::give_columns(Disks& all) {
   Disks& d = state_.disks;
   give_paths(d, all);
@@ -126,15 +126,15 @@ void HaloPart::take_radii(const Disks& all) {
   see_radius(largest_radius(state_.disks));
 }
 
-// A ghost that has come since may be larger than all disks for which the lists were built: they are built anew.
+// A new ghost may be larger than all disks for which the lists were built: then they are built anew.
 void HaloPart::see_radius(double radius) {
   if (radius > run_.lists().largest_listed()) run_.forget(Known::nothing);
 }
 
-// Two disks further apart than twice the largest radius that is allowed for leave each other's growth alone. Of the
-// next part's own disks those within the halo are ghosts; a third part's are not, but that is a halo away at least. So
-// if no own disk of any part is further beyond an end than half of what is left of a halo, none is near one that is not
-// here.
+// Two disks further apart than twice the largest radius that is allowed do not affect each other's growth. Of the next
+// part's own disks those within the halo are ghosts; a third part's are not, but they are at least a halo away. So if
+// no own disk of any part is further beyond an end than half of what remains of a halo, none is near a disk that this
+// part does not have.
 bool HaloPart::has_all_near_own(const Disks& all) const {
   const double room = 0.5 * (halo_ - 2.0 * run_.largest_radius());
   return std::all_of(own_.begin(), own_.end(), [&](std::uint32_t i) {
@@ -152,7 +152,7 @@ void HaloPart::visit_lists(const std::function<void(std::size_t, std::span<const
   }
 }
 
-// A disk whose next event is now is predicted at the start of the next window, with all disks near it.
+// A disk whose next event is due now is predicted at the start of the next window, with all disks near it.
 void HaloPart::change_velocities(const std::vector<unsigned char>& changed) {
   for (std::uint32_t i = 0; i < slots_.size(); ++i) {
     if (changed[slots_[i]] != 0) run_.window().set_next_event_time(i, run_.length());

@@ -20,7 +20,7 @@
 
 namespace carom {
 
-// Of all disks of the box: the largest radius, and by how much each may grow while lists are in use. Lengths.
+// The largest radius of all disks of the box, and the most by which each may grow while lists are in use. Lengths.
 struct LargestRadius {
   double now = 0.0;
   double growth = 0.0;
@@ -30,62 +30,63 @@ class HaloPart;
 using HaloParts = std::vector<std::unique_ptr<HaloPart>>;
 
 // A part has a copy of its disks, with its own lists, calendar and records; one thread runs it as if there were no
-// other disks. Since disks beyond the halo are missing, ghosts become wrong, from the halo's outer edge inwards, but
-// hardly ever the part's own disks. After each slice of a window that is checked (HaloWindows). Unless stated
-// otherwise, a function may be called for all parts at the same time.
+// other disks. Since disks beyond the halo are missing, the paths of ghosts become wrong, from the halo's outer edge
+// inwards, but hardly ever those of the part's own disks. HaloWindows checks that after each slice of a window. Unless
+// stated otherwise, a function may be called for all parts at the same time.
 class HaloPart {
  public:
   explicit HaloPart(const Scene& scene) : one_thread_(1), run_(scene, state_, one_thread_, times_) {}
   HaloPart(const HaloPart&) = delete;
   HaloPart& operator=(const HaloPart&) = delete;
 
-  // Of many disks, gives back what its last windows took: nothing of them is needed to build it, and building takes as
+  // If there are many disks, frees the memory of the last windows: building the part does not need it, and takes as
   // much.
   void release_windows(const Disks& all);
-  // Takes its disks from all of them: those of this part of the cut, and of its halo.
+  // Takes its disks from those of the box: the disks of this part of the cut and of its halo.
   void take_disks(const Disks& all, const BoxCut& cut, std::size_t part, DisksOfPart&& disks);
-  // Then sorts and lists them. all, radii: of all disks. first: how many own disks the parts before this one have. For
-  // each own disk, of index k in `all`, sets slots[k] to first + its place among the own ones.
+  // Then sorts and lists them. all, radii: of all disks. first: the number of own disks of the parts before this one.
+  // For each own disk, with index k in `all`, sets slots[k] to first + its place among the own disks.
   void build(const WindowPlan& plan, const BoxCut& cut, State& all, const LargestRadius& radii, std::size_t first,
              std::vector<std::uint32_t>& slots);
-  // When all parts are built, finds the owners of its ghosts. firsts: `first` of each part, and the number of all
+  // When all parts are built: finds the owners of its ghosts. firsts: `first` of each part, and then the number of all
   // disks.
   void find_owners(const std::vector<std::size_t>& firsts, const std::vector<std::uint32_t>& slots);
 
-  // Then stores its own disks in the columns of all, each in its slot; only ids, radii and masses are kept here.
+  // Then moves the columns of its own disks into those of all disks, each disk to its slot; only ids, radii and masses
+  // are kept in the part.
   void give_columns(Disks& all);
-  // Own disks' positions, velocities and spins to their slots; here: in the same order as the disks of this part.
+  // Writes the positions, velocities and spins of its own disks to their slots. here: disks in the order of this part.
   void give_paths(const Disks& here, Disks& all) const;
 
-  // Before a window's first slice.
+  // Called before a window's first slice.
   void begin_window();
-  // After a slice: compares what its ghosts did with what the same disks did in the parts that own them. Ghosts that
-  // went elsewhere there are put on their paths.
+  // After a slice: compares the paths of its ghosts with those of the same disks in the parts that own them. Ghosts
+  // whose paths differ take those of their owners.
   void compare_with(const HaloParts& parts);
-  // Then: did all ghosts that concern its own disks move as their owners say? And how near it was to that; lengths.
+  // After that: did all ghosts that concern its own disks move as in their owners?
   bool agrees() const { return agrees_; }
   const HaloUse& use() const { return use_; }
 
-  // After a window: which of its own disks have come so near to an end that parts there are to have them, too. all: the
-  // columns.
+  // After a window: finds those of its own disks that have come so near to an end that the parts there must have them
+  // as ghosts. all: the columns of all disks.
   void find_offers(const Disks& all);
-  // Then, when all have: takes what others offer as ghosts. all: the columns.
+  // When all parts have done that: takes the disks that others offer as ghosts. all: the columns of all disks.
   void take_offers(const Disks& all, const HaloParts& parts);
-  // Then, when all have taken theirs.
+  // When all parts have taken theirs.
   void clear_offers() { offers_.clear(); }
-  // Then, one part after the other: makes the ghosts that came inside disks of its own.
+  // Then, one part after the other: takes over the ghosts that have come inside as its own disks.
   void take_over(const HaloParts& parts);
 
-  // Between windows. All radii have grown, by no more than lists allow for.
+  // Between windows, when all radii have grown, by no more than the lists allow for.
   void take_radii(const Disks& all);
-  // When offers have been taken: are all own disks where, if that holds in all parts, whatever they may grow against is
-  // here, too? all: the columns.
+  // When offers have been taken: does this part allow the conclusion, if all other parts do too, that each part has all
+  // disks against which its own may grow? all: the columns of all disks.
   bool has_all_near_own(const Disks& all) const;
   // Calls visit(slot, near) for each own disk; near: the slots of the disks that it lists.
   void visit_lists(const std::function<void(std::size_t, std::span<const std::uint32_t>)>& visit) const;
-  // Disks in slots where `changed` is not 0 have other velocities: those that are here are predicted anew.
+  // The disks in slots for which `changed` is not 0 have new velocities: those of them in this part are predicted anew.
   void change_velocities(const std::vector<unsigned char>& changed);
-  // Calls visit with the slots of own disks, as NeighbourLists::visit_near.
+  // Calls visit with the slots of own disks; otherwise as NeighbourLists::visit_near.
   void visit_near(Vec2 centre, double half_width, double half_height,
                   const std::function<void(std::size_t)>& visit) const;
 
@@ -96,17 +97,18 @@ class HaloPart {
   const WindowRun& run() const { return run_; }
 
  private:
-  // In place of the index of a disk that belongs to another part now, so that the others keep their places.
+  // Stands for a disk that belongs to another part now, so that the others keep their places.
   static constexpr std::uint32_t none = 0xffffffffU;
-  // A disk of the halo: its index here, and its place in the part that owns it.
+  // A disk of the halo: its index in this part, and its place in the part that owns it.
   struct Ghost {
     std::uint32_t index;
     std::uint32_t place;
     std::uint16_t part;
-    std::uint16_t more_paths;  // segments begun here in the window than there, modulo 2^16, since its path was replaced
+    std::uint16_t more_paths;  // segments begun here minus those begun there in the window since its path was replaced,
+                               // modulo 2^16
   };
 
-  // An own disk that another part, `to`, is to have as a ghost.
+  // An own disk that another part, `to`, must have as a ghost.
   struct Offer {
     std::uint32_t place;
     std::uint32_t slot;
@@ -136,13 +138,13 @@ class HaloPart {
   Executor one_thread_;
   WindowRun run_;
   std::uint16_t number_ = 0;
-  double halo_ = 0.0;  // how wide it is; length
+  double halo_ = 0.0;  // width of the halo; length
   std::size_t own_count_ = 0;
   std::vector<std::uint32_t> own_;    // indices of its own disks, by place
   std::vector<std::uint32_t> slots_;  // where each disk is in the columns of all; while the part is built, where it was
   std::vector<Ghost> ghosts_;
-  std::vector<std::uint32_t> strays_;  // ghosts that moved otherwise than their owners say in the slice, by index
-  std::vector<std::size_t> inside_;    // ghosts that are well inside after the slice, in ghosts_, in order
+  std::vector<std::uint32_t> strays_;  // ghosts that moved otherwise in the slice than in their owners, by index
+  std::vector<std::size_t> inside_;    // ghosts that are well inside after the slice, as places in ghosts_, in order
   std::vector<Offer> offers_;
   bool agrees_ = true;
   HaloUse use_;

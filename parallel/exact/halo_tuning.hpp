@@ -1,5 +1,4 @@
-// How wide the halos of the exact engine's parts are and into how many slices windows are cut, as the last windows need
-// it.
+// The width of the halos of the exact engine's parts and the number of slices of a window, adapted to the last windows.
 #pragma once
 
 #include <algorithm>
@@ -7,8 +6,8 @@
 
 namespace carom {
 
-// What a slice, or a window, needed of the halos. nearest: how far beyond its part's end the nearest ghost was that
-// moved otherwise than its owner says. deepest: how far the furthest one was that had to move as its owner says.
+// What a slice, or a window, needed of the halos. nearest: the least distance beyond its part's end of a ghost that
+// moved otherwise than in its owner. deepest: the largest such distance of a ghost that had to move as in its owner.
 // Lengths, or mean spacings.
 struct HaloUse {
   double nearest = HUGE_VAL;
@@ -22,13 +21,13 @@ struct HaloUse {
 };
 
 // In a slice the error that begins at the halo's outer end, where disks are missing, spreads inwards by some spacings.
-// Where it nearly reaches ghosts that concern a part's own disks, wider halos are made. Where it reaches them the
-// window is void, and slices are halved as well: disks are dense then, and what happens to one soon concerns many.
-// Where it stayed far away until the lists were due, there are fewer slices again, or narrower halos. With more slices
-// than needed, threads wait for the slowest one more often.
+// If it nearly reaches ghosts that concern a part's own disks, wider halos are made. If it reaches them the window is
+// void, and the number of slices is doubled as well: disks are dense then, and an event soon affects many of them. If
+// it stays far away until the lists are due, there are fewer slices again, or narrower halos. With more slices than
+// needed, threads wait for the slowest one more often.
 class HaloTuning {
  public:
-  // spacings: width of halos at first, in mean spacings. adapts: if not, all stays as it is.
+  // spacings: the width of halos at first, in mean spacings. adapts: if false, width and slices stay as they are.
   explicit HaloTuning(double spacings, bool adapts) : adapts_(adapts), spacings_(spacings) {}
 
   double spacings() const { return spacings_; }
@@ -39,7 +38,7 @@ class HaloTuning {
     least_seen_ = 0.0;
     if (adapts_) slices_ = std::min(most_slices, 2 * slices_);
   }
-  // Halos are made anew.
+  // To be called when halos are made anew.
   void adapt() {
     const bool is_wide = adapts_ && least_seen_ > least_rest + 2.0 * step && least_seen_ < HUGE_VAL;
     if (is_too_narrow()) spacings_ = std::min(widest, spacings_ + step);
@@ -49,8 +48,8 @@ class HaloTuning {
   }
 
  private:
-  // In mean spacings. Wider than two skins and a radius: any disk that may come beyond an end is within that distance
-  // of it.
+  // In mean spacings. The narrowest halo is wider than two skins and a radius, so any disk that may come beyond an end
+  // is within the halo's width of it.
   static constexpr double narrowest = 4.0;
   static constexpr double widest = 32.0;
   static constexpr double step = 0.5;
@@ -60,7 +59,7 @@ class HaloTuning {
   bool adapts_;
   double spacings_;
   int slices_ = least_slices;
-  double least_seen_ = HUGE_VAL;  // rest, since halos were made
+  double least_seen_ = HUGE_VAL;  // of rest(), since halos were made
 };
 
 }  // namespace carom

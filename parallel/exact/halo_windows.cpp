@@ -15,35 +15,36 @@ namespace {
 
 // With fewer disks one thread is as fast.
 constexpr std::size_t least_disks = 4000;
-// A thread with more of them has several parts of about so many, one after the other: what a slice reads of a part
-// comes from nearer caches, and from fewer pages. From 4 10^5 on they are faster, at 10^6 by a sixth, but take a
+// A thread with more disks than most_disks has several parts of about disks_of_several each, one after the other: then
+// the data of a slice of a part come from nearer caches and from fewer pages. Several parts are faster from 4 10^5
+// disks on, by a sixth at 10^6, but take a quarter more memory.
 // quarter more memory.
 constexpr std::size_t most_disks = 1'000'000;
 constexpr std::size_t disks_of_several = 125'000;
-// The same where threads share that cache.
+// The number of disks of such a part if threads share that cache.
 constexpr std::size_t disks_of_shared = 64'000;
 // The least width of a part, in halos.
 constexpr double least_width = 2.0;
-// Where there are more parts than threads: the most disks that they have together, over those of the box. Of very many,
-// less, as ghosts take memory.
+// If there are more parts than threads: the most disks of all parts together, ghosts included, over the number of disks
+// in the box; less for very many disks, since ghosts take memory.
 constexpr double most_with_ghosts = 1.16;
 constexpr double most_with_ghosts_of_many = 1.05;
 constexpr std::size_t very_many = 50'000'000;
-// There are strips where a part would have fewer disks than the mean number over this.
+// The box is cut into strips if a part would otherwise have fewer disks than the mean number over this.
 constexpr std::size_t least_share = 8;
-// How often a window is run in parts, each time with halos made anew, before it is run without.
+// How often a window is run in parts, each time with new halos, before it is run without parts.
 constexpr int most_tries = 3;
-// How many windows are run without parts after one that could not be run in parts: more each time that happens soon
-// again.
+// The number of windows that are run without parts after one that could not be run in parts: more each time if that
+// happens again soon.
 constexpr int least_pause = 2;
 constexpr int longest_pause = 64;
-// The width of halos at first, in mean spacings. Where work is cut into much smaller blocks, as in tests, halos are
-// narrow and stay so: then even small scenes have parts, and many windows are void.
+// The width of halos at first, in mean spacings. If work is cut into much smaller blocks, as in tests, halos are narrow
+// and stay so: then even small scenes have parts, and many windows are void.
 constexpr double first_width = 8.0;
 constexpr std::size_t cut_small = 8;
 constexpr double width_of_cut_work = 4.0;
 
-// Is a disk of the part no ghost?
+// Returns a function that says whether the part owns a disk.
 std::function<bool(std::uint32_t)> owned_by(const HaloPart& part) {
   return [&part](std::uint32_t i) { return !part.run().window().record[i].progress.has(DiskProgress::ghost); };
 }
@@ -62,14 +63,14 @@ bool HaloWindows::work_is_cut() const {
   return executor_.grain(least_disks) < least_disks / cut_small;
 }
 
-// At least a diameter, in case the disks fill only a part of the box.
+// The mean distance of disks; at least a diameter, in case the disks fill only a part of the box.
 double HaloWindows::mean_spacing() const {
   const double n = static_cast<double>(state_.disks.size());
   return std::max(std::sqrt(scene_.box.width * scene_.box.height / n), 2.0 * largest_radius(state_.disks));
 }
 
-// One part for each thread, or the same number for each. Where work is cut into smaller blocks there are several on one
-// thread, too.
+// One part for each thread, or the same number of parts for each. If work is cut into smaller blocks, as in tests,
+// there are several parts on one thread, too.
 PieceCounts HaloWindows::pieces(Cuts cuts) const {
   const auto threads = static_cast<std::size_t>(executor_.threads());
   const std::size_t n = state_.disks.size();
@@ -90,7 +91,7 @@ PieceCounts HaloWindows::pieces(Cuts cuts) const {
   return {};
 }
 
-// A single part where there is no room for so many.
+// A single part if there is no room for this number.
 PieceCounts HaloWindows::pieces_of(std::size_t parts, Cuts cuts) const {
   const double halo = tuning_.spacings() * spacing_;
   const Domain& box = scene_.box;
@@ -100,7 +101,8 @@ PieceCounts HaloWindows::pieces_of(std::size_t parts, Cuts cuts) const {
   return !fit ? PieceCounts{} : wide ? PieceCounts{parts, 1} : PieceCounts{1, parts};
 }
 
-// Not where disks come and go or cannot be listed with a skin, nor in a sheared box, whose images move.
+// Windows are not run in parts if there are sources or sinks, if disks cannot be listed with a skin, or in a sheared
+// box, whose images move.
 bool HaloWindows::are_wanted() {
   if (windows_without_ > 0) {
     --windows_without_;
@@ -140,7 +142,7 @@ void HaloWindows::build(const WindowPlan& plan) {
   known_ = Known::lists;
 }
 
-// Where disks crowd, lines across the whole box may leave parts with hardly any: then there are strips.
+// If disks crowd, lines across the whole box may leave hardly any disks in some parts: then the box is cut into strips.
 std::vector<DisksOfPart> HaloWindows::share_out() {
   const std::size_t n = state_.disks.size();
   const auto cut_into = [&](PieceCounts pieces) {
@@ -158,7 +160,7 @@ std::vector<DisksOfPart> HaloWindows::share_out() {
   return disks;
 }
 
-// Then the columns of all disks are in the order of the parts.
+// Afterwards the columns of all disks are in the order of the parts.
 void HaloWindows::build_parts(const WindowPlan& plan, const BoxCut& cut, std::vector<DisksOfPart>&& disks) {
   parts_.resize(cut.parts());
   for (std::unique_ptr<HaloPart>& part : parts_) {
@@ -204,8 +206,8 @@ SliceOutcome HaloWindows::run(const WindowPlan& plan, const SpeedSummary& speeds
   return outcome;
 }
 
-// Disks that have come near to another part, or into one, since the last window; those that are exchanged already are
-// no longer offered.
+// Exchanges the disks that have come near to another part, or into one, since the last window; disks that are exchanged
+// already are no longer offered.
 void HaloWindows::exchange_disks() {
   for_parts([&](HaloPart& part) { part.take_offers(state_.disks, parts_); });
   for (const std::unique_ptr<HaloPart>& part : parts_) part->clear_offers();
@@ -260,7 +262,7 @@ SliceOutcome HaloWindows::run_slices(const WindowPlan& plan) {
   return SliceOutcome::done;
 }
 
-// A part whose own disk came where it is not known says that it was too fast.
+// A part ends the slice with too_fast if one of its own disks came to a part that does not have it as a ghost.
 SliceOutcome HaloWindows::run_slice(const WindowPlan& plan, double start, double end) {
   std::vector<SliceOutcome> outcome(parts_.size());
   executor_.run(parts_.size(),
@@ -280,7 +282,7 @@ SliceOutcome HaloWindows::run_slice(const WindowPlan& plan, double start, double
   return is_crowded() ? SliceOutcome::crowded : SliceOutcome::done;
 }
 
-// Counted for all parts together, as it is with one queue.
+// Paths are counted for all parts together, as with a single queue.
 bool HaloWindows::is_crowded() const {
   Count paths = 0;
   for (const std::unique_ptr<HaloPart>& part : parts_) paths += part->run().scheduler().segments();
@@ -311,7 +313,7 @@ void HaloWindows::change_velocities(std::span<const std::uint32_t> disks) {
   for_parts([&](HaloPart& part) { part.change_velocities(changed); });
 }
 
-// An own disk may have left its part, so all parts are asked.
+// All parts are asked, since an own disk may have left its part.
 void HaloWindows::visit_near(Vec2 centre, double half_width, double half_height,
                              const std::function<void(std::size_t)>& visit) const {
   for (const std::unique_ptr<HaloPart>& part : parts_) part->visit_near(centre, half_width, half_height, visit);

@@ -1,4 +1,4 @@
-// The windows of the exact engine on several threads, or of many disks: in parts of the box, each with a halo.
+// The windows of the exact engine on several threads, or of many disks: the box is cut into parts, each with a halo.
 #pragma once
 
 #include <cstddef>
@@ -21,58 +21,59 @@
 
 namespace carom {
 
-// Every part runs a slice of the window by itself. Then each one's ghosts are compared with what their owners made of
-// them, and take their paths. The own disks of all parts together are the system if in each slice
-// - a ghost that an own disk met moved as its owner says, and so did one that came beyond its owner's end,
-// - no disk came beyond an end of its part to another one that does not have it as a ghost, nor to a third part
-//   (PartEnds):
-// every collision of an own disk is then with a disk that is where it was taken to be, and no two disks of two parts
-// overlap, since one of them would have come beyond the end, and the other's part would have seen it as it is.
-// Otherwise the window is void. Bits depend neither on parts nor on halos.
+// Every part runs a slice of the window by itself. Then its ghosts are compared with the same disks in their owners,
+// and take their paths. The own disks of all parts together are the system if in each slice
+// - a ghost that an own disk met moved as in its owner, and so did a ghost that came beyond its owner's end,
+// - no disk came beyond an end of its part into another part that does not have it as a ghost, or into a third part
+// (PartEnds).
+// Then every collision of an own disk is with a disk that is where the part has it, and no two disks of two parts
+// overlap, since one of them would have come beyond the end, and the other's part would have had it at its true place.
+// Otherwise the window is void. The bits depend neither on parts nor on halos.
 class HaloWindows {
  public:
-  // All of these outlive it; the state may change between windows.
+  // All arguments outlive it; the state may change between windows.
   HaloWindows(const Scene& scene, State& state, const Executor& executor, PhaseTimes& times);
 
-  // Is the next window to be run in parts? To be asked once before each window.
+  // Is the next window to be run in parts? Must be called once before each window.
   bool are_wanted();
 
-  // No more than this is right any more.
+  // From now on only this may still be valid.
   void forget(Known left);
   void release_memory();
-  // Lists that are built from now on allow for so much growth of each radius; length.
+  // Lists built from now on allow each radius to grow by this; length.
   void set_growth(double growth) { growth_ = growth; }
 
-  // As WindowRun::run, and builds lists if they are due. Where the outcome is neither `done` nor `given_up`, the window
-  // is to be run without parts. Of `window` it takes whether paths are kept, and go_on.
+  // As WindowRun::run; builds lists if they are due. If the outcome is neither `done` nor `given_up`, the window has to
+  // be run without parts. Of `window` only keeps_paths and go_on are used.
   SliceOutcome run(const WindowPlan& plan, const SpeedSummary& speeds, const WindowState& window);
-  // After a window that was done, as WindowRun::store_paths; no disk is gone.
+  // After a window that was done: as WindowRun::store_paths; no disk has left the box.
   ImpactTally store_paths(const WindowPlan& plan);
 
-  // Between windows, where all is known since the last one was done. These disks have other velocities.
+  // Between windows, if everything has been known since the last one was done: these disks have new velocities.
   void change_velocities(std::span<const std::uint32_t> disks);
-  // All radii have grown, by no more than growth() since the lists were built, and times are forgotten.
+  // All radii have grown, by no more than growth() since the lists were built; the times of next events become invalid.
   void take_radii();
-  // By how much those that there are allow for (NeighbourLists::growth).
+  // The growth of radii that the present lists allow for (NeighbourLists::growth).
   double growth() const;
-  // Brings the lists up to date. True if visit_lists then tells each disk of all those that it may grow against.
+  // Brings the lists up to date. Returns true if visit_lists then visits for each disk all disks against which it may
+  // grow.
   bool complete_lists();
-  // Calls visit(disk, near) for each disk, on all threads. near: the disks that it lists.
+  // Calls visit(disk, near) for each disk, on all threads. near: the disks in its list.
   void visit_lists(const std::function<void(std::size_t, std::span<const std::uint32_t>)>& visit) const;
   // As Engine::visit_near.
   void visit_near(Vec2 centre, double half_width, double half_height,
                   const std::function<void(std::size_t)>& visit) const;
   Known known() const { return known_; }
 
-  // Of the last window: makes positions and velocities those at time s of it; its collisions; the largest speed of a
-  // path in it, as Engine::fastest_within.
+  // Of the last window: moves the disks to time s of it, with their velocities then; its collisions; the largest speed
+  // of a path in it (Engine::fastest_within).
   void move_along_paths(double s, Disks& disks) const;
   std::vector<DiskContact> contacts(double start) const;
   double fastest_within() const;
 
-  // Of the last window.
+  // The number of parts in the last window.
   std::size_t parts() const { return parts_.size(); }
-  // For measurements: how often a window was void, and was run again.
+  // For measurements: how often a window was void and was run again.
   Count void_runs() const { return void_runs_; }
 
  private:
@@ -101,14 +102,14 @@ class HaloWindows {
   const Executor& executor_;
   PhaseTimes& times_;
   HaloParts parts_;
-  int pause_;  // windows to run without parts after one that cannot be run in parts
+  int pause_;  // windows to run without parts after one that could not be run in parts
   HaloTuning tuning_;
-  PartWork work_;         // of the parts, and how they were cut
-  HaloUse use_;           // of the window so far
-  double spacing_ = 0.0;  // mean; length
+  PartWork work_;         // of the last parts, with their cut
+  HaloUse use_;           // of the present window so far
+  double spacing_ = 0.0;  // mean distance of disks; length
   double growth_ = 0.0;
   Known known_ = Known::nothing;
-  int windows_without_ = 0;  // still to come
+  int windows_without_ = 0;  // the number still to come
   Count void_runs_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// The cells of the neighbour lists: which one a listed position is in, and how disks come into them.
+// The cells of the neighbour lists: the cell of a listed position, and how disks are put into cells.
 #include <algorithm>
 #include <cmath>
 
@@ -8,18 +8,18 @@ namespace carom {
 
 namespace {
 
-// What rounding and slots add to the reach of lists, generously.
+// A generous factor for what rounding and slots add to the reach of lists.
 constexpr double slot_room = 1.1;
 // In skins.
 constexpr double coarse_unit = 1.0 / 32.0;
-// More than what single precision adds to the reach of a list, as a share of it.
+// More than single precision adds to the reach of a list, as a share of it.
 constexpr double search_rounding = 4e-5;
 
 }  // namespace
 
-// Differences of two places that are listed together must not wrap round in a slot, and those of all that one search
-// sees should not, unless units would be coarse then: others may be listed too. A period has more bits than a slot, or
-// as many, so that differences wrap round the box as they do in full.
+// Differences of two places that are listed together must not wrap round in a slot. Differences of all places that one
+// search reads should not either, unless units would be coarse then; if they do, a few disks too many may be listed. A
+// period has at least as many bits as a slot, so differences wrap round the box as they do with all bits.
 void NeighbourLists::choose_slot_units() {
   const double listed = flow_.stretch * (2.0 * largest_radius_ + 2.0 * skin_) * slot_room;
   double cell_width = 0.0;
@@ -48,7 +48,7 @@ void NeighbourLists::choose_slot_units() {
 }
 
 // Puts the disks that are sorted into cells [first_key, last_key) into the slots of the cells of their listed
-// positions: the same ones, but for a shear.
+// positions, which are the same cells except in a shear.
 void NeighbourLists::fill_slots(const Disks& d, std::uint32_t first_key, std::uint32_t last_key) {
   for (std::uint32_t key = first_key; key < last_key; ++key) {
     for (std::uint32_t i = cells_.start[key]; i < cells_.start[key + 1]; ++i) {
@@ -63,8 +63,8 @@ void NeighbourLists::fill_slot(const Disks& d, std::uint32_t i) {
   slots_.insert(cell_in(level_of(d, i), at), i, slot_position(at), radius_in_units(d.radius_of(i)));
 }
 
-// Rounding may have led the listed position out of the cell that the disk is sorted into, to the next one: then it is
-// moved by one.
+// By rounding the listed position may be in the cell next to the one into which the disk is sorted: then the position
+// is moved by one unit.
 void NeighbourLists::move_into_cell(const Disks& d, std::uint32_t i, std::uint32_t key) {
   constexpr std::uint32_t shifts[] = {0U, 1U, 0U - 1U};
   const std::size_t level = level_of(d, i);
@@ -82,7 +82,7 @@ std::size_t NeighbourLists::level_of(const Disks& d, std::uint32_t i) const {
   return growth_ > 0.0 ? kept_level_[i] : level_of_radius(d.radius[i]);
 }
 
-// A disk that was added since may be smaller than those that the grid was made for.
+// A disk that was added later may be smaller than those that the grid was made for.
 std::size_t NeighbourLists::level_of_radius(double radius) const {
   return std::min(class_of_radius(radius, grid_.levels.front().largest_radius), grid_.levels.size() - 1);
 }
@@ -99,7 +99,7 @@ void NeighbourLists::keep_level(const Disks& d, std::uint32_t i) {
   kept_level_[i] = static_cast<std::uint8_t>(level_of_radius(d.radius[i] + growth_));
 }
 
-// Moves the disk to the cell of this position; false, without a change, if its old cell is outside the region.
+// Moves the disk to the cell of this position. Returns false, without a change, if its old cell is outside the region.
 bool NeighbourLists::move_to_cell_of(const Disks& d, std::uint32_t i, FixedPointPosition position,
                                      const ListRegion& region) {
   const std::size_t level = level_of(d, i);

@@ -1,4 +1,4 @@
-// Neighbour lists while a program or a source adds disks between windows, or a program takes some away.
+// Changes of neighbour lists between windows, when a program or a source adds disks, or a program removes some.
 #include <vector>
 
 #include "parallel/exact/most_listed.hpp"

@@ -1,4 +1,4 @@
-// Compiled with -mavx2 on x86-64 (CMakeLists.txt); elsewhere it calls the baseline.
+// Compiled with -mavx2 on x86-64 (CMakeLists.txt); on other machines it calls the baseline.
 #include "parallel/exact/list_kernel.hpp"
 
 #if defined(__AVX2__)
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t lanes = 8;
 
-// For each set of lanes, those in it first.
+// For each set of lanes the permutation that puts these lanes first.
 constexpr auto packing = [] {
   std::array<std::array<std::uint8_t, lanes>, 256> table{};
   for (std::uint32_t bits = 0; bits < table.size(); ++bits) {
@@ -25,7 +25,7 @@ constexpr auto packing = [] {
   return table;
 }();
 
-// The query in every lane.
+// The query, in every lane.
 struct Lanes {
   __m256i position, unit, self;
   __m256 cutoff, radius, cutoff2;
@@ -33,13 +33,13 @@ struct Lanes {
 
 static_assert(slots_a_cell == lanes);
 
-// Packs the near disks of a cell. radius: of its slots.
+// Appends the near disks of a cell, packed, to `found`. radius: of the cell's slots.
 template <bool unequal_radii>
 inline std::size_t take(const Lanes& l, const SlotCell& cell, const float* radius, std::uint32_t* found) {
   const auto load = [](const auto* column) { return _mm256_load_si256(reinterpret_cast<const __m256i*>(column)); };
   const __m256i disk = load(cell.disk);
   const __m256i position = load(cell.position);
-  // In each lane x in the lower half, y in the upper one.
+  // In each lane, x is in the lower half and y in the upper one.
   const __m256i apart = _mm256_abs_epi16(_mm256_sub_epi16(l.position, position));
   const __m256i distances = _mm256_mulhrs_epi16(apart, l.unit);
   const __m256 distance2 = _mm256_cvtepi32_ps(_mm256_madd_epi16(distances, distances));
@@ -48,7 +48,7 @@ inline std::size_t take(const Lanes& l, const SlotCell& cell, const float* radiu
     const __m256 cutoff = _mm256_add_ps(l.cutoff, _mm256_add_ps(l.radius, _mm256_loadu_ps(radius)));
     cutoff2 = _mm256_mul_ps(cutoff, cutoff);
   }
-  // By the sign: that of an empty slot is set.
+  // Empty slots are excluded by the sign bit, which is set in their number.
   static_assert((empty_slot >> 31U) != 0);
   const __m256i excluded = _mm256_or_si256(_mm256_cmpeq_epi32(disk, l.self), disk);
   const __m256i near = _mm256_castps_si256(_mm256_cmp_ps(distance2, cutoff2, _CMP_LE_OQ));
@@ -85,7 +85,8 @@ std::size_t find(const ListQuery& q, const SlotColumns& columns, const CellBlock
   return n;
 }
 
-// Puts the offsets from disk i, eight at a time: 0 where there are none left. False if they do not fit in 16 bits.
+// Writes the offsets from disk i, eight at a time, and 0 at places beyond the last one. Returns false if they do not
+// fit in 16 bits.
 inline bool put_offsets(std::uint32_t i, const std::uint32_t* near, std::size_t count, std::int16_t* offset) {
   const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
   const __m256i own = _mm256_set1_epi32(static_cast<int>(i));
@@ -101,13 +102,13 @@ inline bool put_offsets(std::uint32_t i, const std::uint32_t* near, std::size_t 
   return _mm256_testz_si256(beyond, beyond) != 0;
 }
 
-// Puts the offset at place `count` and at the next ones.
+// Puts the offset at place `count` and at the places of the padding behind it.
 inline void put_and_pad(ListRow& row, std::uint32_t count, std::int16_t offset) {
   static_assert(row_padding * sizeof offset == 8);
   _mm_storel_epi64(reinterpret_cast<__m128i*>(row.offset + count), _mm_set1_epi16(offset));
 }
 
-// Rows that are nearly full are left to do: there is no room for as many offsets then.
+// Rows that are nearly full are left to the caller: they have no room for the padding.
 [[gnu::hot]] std::uint32_t insert_into_rows(ListRow* rows, std::uint32_t i, std::uint32_t* disks, std::uint32_t count) {
   std::uint32_t left = 0;
   for (std::uint32_t k = 0; k < count; ++k) {
@@ -136,11 +137,11 @@ inline void put_and_pad(ListRow& row, std::uint32_t count, std::int16_t offset) 
     const __m256i packed = _mm256_packs_epi16(_mm256_cmpeq_epi16(_mm256_load_si256(half), sought),
                                               _mm256_cmpeq_epi16(_mm256_load_si256(half + 1), sought));
     const auto places = static_cast<std::uint32_t>(_mm256_movemask_epi8(_mm256_permute4x64_epi64(packed, 0xd8)));
-    // Padding may have the offset too, but after it.
+    // The padding may contain the offset too, but behind it.
     const auto place =
         static_cast<std::uint32_t>(__builtin_ctzll(std::uint64_t{places} >> places_before_offsets | 1ULL << 32U));
     const std::uint32_t last = row.count - 1U;
-    // All that the row had may be gone, and what did not fit in it still there.
+    // The row may be empty while neighbours that did not fit in it remain in wide rows.
     if (place < row.count && last + row_padding <= row_offsets && far == static_cast<std::int16_t>(far)) [[likely]] {
       row.offset[place] = row.offset[last];
       put_and_pad(row, last, row.offset[0]);
@@ -164,7 +165,7 @@ std::size_t list_kernel_avx2(const ListQuery& query, const SlotColumns& columns,
                                    : find<true>(query, columns, block, found);
 }
 
-// Sixteen places at a time; those that are not in use become 0, which is no neighbour's offset.
+// Compares sixteen places at a time; unused places become 0, which is no neighbour's offset.
 ListChange change_kernel_avx2(const void* row, std::uint32_t count, std::uint32_t i, const std::uint32_t* near,
                               std::size_t new_count, const NewList& to) {
   ListChange change;

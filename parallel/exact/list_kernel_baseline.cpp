@@ -8,7 +8,7 @@ namespace carom {
 std::size_t list_kernel_baseline(const ListQuery& query, const SlotColumns& columns, const CellBlock& block,
                                  std::uint32_t* found) {
   std::size_t n = 0;
-  // No branch depends on a position: which disks are near is as good as random.
+  // No branch depends on a position, since which disks are near is practically random.
   const auto take = [&](std::uint32_t c, std::uint32_t slot) {
     const std::uint32_t disk = columns.cell[c].disk[slot];
     const float radius =

@@ -1,5 +1,5 @@
-// How neighbour lists are laid out: the skin, the cells that disks are sorted into, tiles and regions of them, and
-// which disks have no neighbours across a border.
+// The layout of the neighbour lists: the skin, the cells into which disks are sorted, their tiles and regions, and the
+// inner part of the box, whose disks have no neighbours across a border.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,25 +11,25 @@ namespace carom {
 
 namespace {
 
-// Twice the skin and a diameter make this many mean spacings: about eleven neighbours. Longer lists take longer to go
-// through, shorter ones have to be renewed more often, the sooner the less dense the system is: with one queue the
-// fewest instructions a collision are at 2.05 to 2.2, 1.8 to 1.9 and 1.72 spacings at packing fractions 0.2, 0.5 and
-// 0.7 (10^4 disks), at 1.8 to 2.1 from 0.1 down to 0.005 (2000 disks), where disks fly further than across a list.
+// Twice the skin and a diameter make this many mean spacings: about eleven neighbours. Longer lists take longer to
+// visit; shorter ones have to be renewed more often, the sooner the less dense the system is. With one queue the fewest
+// instructions a collision are at 2.05 to 2.2, 1.8 to 1.9 and 1.72 spacings at packing fractions 0.2, 0.5 and 0.7 (10^4
+// disks), and at 1.8 to 2.1 from 0.1 down to 0.005 (2000 disks), where disks fly further than the width of a list.
 constexpr double region_cutoff = 1.85;
 
 double cutoff_in_spacings(double packing_fraction) {
   return std::min(2.35 - 0.9 * packing_fraction, 1.95 + 1.1 * packing_fraction);
 }
 
-// Where disks crowd most cells are empty: with many disks, at most so many times as many cells are made.
+// If disks crowd, most cells are empty: with many disks, the number of cells grows by at most this factor.
 constexpr double most_crowding_of_many = 8.0;
 // In very dense systems the skin is at least this share of a mean diameter.
 constexpr double least_skin = 0.08;
 // The least skin in units of listed positions, so that their rounding does not matter.
 constexpr double least_units = 1024.0;
-// Disks of different sizes are sorted by cells of about half as many.
+// Disks of different sizes are sorted by cells of about half this number of disks.
 constexpr std::size_t disks_of_a_place = 4;
-// The most of the skin that is kept for radii that grow.
+// The largest share of the skin that is kept for the growth of radii.
 constexpr double most_growth = 0.6;
 
 double crowding_of_cells(double crowded, std::size_t disks) {
@@ -38,9 +38,9 @@ double crowding_of_cells(double crowded, std::size_t disks) {
 
 }  // namespace
 
-// crowded: how much denser than in the mean it is around the disks (crowding.hpp).
+// crowded: the density around the disks over the mean density (crowding.hpp).
 void NeighbourLists::choose_skin(const Disks& d, const ListLayout& layout, double crowded) {
-  // A part of the box may have none as yet.
+  // A part of the box may have no disks yet.
   const double n = std::max<double>(1.0, static_cast<double>(d.size()));
   double radius = 0.0;
   double area = 0.0;
@@ -52,7 +52,7 @@ void NeighbourLists::choose_skin(const Disks& d, const ListLayout& layout, doubl
     radius = d.common_radius;
     area = n * std::numbers::pi * radius * radius;
   }
-  // The share of the box that these disks have, if the others have theirs.
+  // The share of the box that belongs to these disks, the other disks having theirs.
   const double share = layout.disks_of_box > 0 ? n / static_cast<double>(layout.disks_of_box) : 1.0;
   const double space = share * box_.width * box_.height;
   const double packing_fraction = std::min(crowded * area / space, 1.0);
@@ -79,9 +79,9 @@ void NeighbourLists::sort(Disks& d, const ListLayout& layout, double crowded, co
     make_tiled_grid(box_, largest, count, layout.disks_per_tile, layout.regions, grid_);
     if (layout.disks_of_box > 0) keep_tiles_between(box_, layout.low.y, layout.high.y, grid_);
   } else {
-    // Half of this many disks a cell, which has room for eight: lists extend over several cells, and each costs as much
-    // to visit, empty or not. A few less in a dilute gas, whose disks lie less evenly, so that more cells overflow; a
-    // few more where they are many, for memory's sake.
+    // A cell has on average half of this number of disks, and room for eight: lists extend over several cells, and each
+    // costs as much to visit, empty or not. There are fewer a cell in a dilute gas, whose disks lie less evenly, so
+    // that more cells overflow, and more if there are many disks, to save memory.
     const std::size_t disks = std::max(d.size(), layout.disks_of_box);
     const bool are_many = disks > disks_of_much_memory;
     const bool is_dilute = skin_ > 4.0 * largest;
@@ -97,7 +97,7 @@ void NeighbourLists::sort(Disks& d, const ListLayout& layout, double crowded, co
   }
 }
 
-// Where radii are so different that cells have several levels: disks that are neighbours are stored near each other,
+// Used if radii are so different that cells have several levels: disks that are neighbours are stored near each other,
 // whatever their sizes, so that offsets to them are small.
 void NeighbourLists::sort_by_place(Disks& d, const ListLayout& layout, double crowded, const Executor& executor) {
   const std::size_t disks = std::max(layout.disks_of_box, d.size());
@@ -108,8 +108,8 @@ void NeighbourLists::sort_by_place(Disks& d, const ListLayout& layout, double cr
   sort_into_cells(d, places, executor, cells_);
 }
 
-// By the radii that disks may grow to. So those that have the same radius in the end are seldom in two size classes,
-// apart in memory.
+// Sorts the disks by the radii to which they may grow. So disks that have the same radius in the end are seldom in two
+// size classes, apart in memory.
 void NeighbourLists::sort_grown(Disks& d, const ListLayout& layout, double crowded, const Executor& executor) {
   largest_radius_ += growth_;
   const std::vector<double> radius = d.radius;
@@ -126,8 +126,8 @@ void NeighbourLists::find_tiles(std::size_t disks) {
   }
 }
 
-// How deep the core lies within the region: a disk is relisted within the relist distance of its listed position, at a
-// place that is ahead of it by less than that, and its new list reaches no further than lists do from there.
+// The depth of the core within the region follows from this: a disk is relisted within the relist distance of its
+// listed position, at a place that is ahead of it by less than that, and its new list has the usual reach from there.
 ListRegion NeighbourLists::region_of_tiles(std::uint32_t first, std::uint32_t last) const {
   ListRegion region{first * grid_.tile_keys, last * grid_.tile_keys, first_disk_of(first), first_disk_of(last)};
   const double side = layers_along_x_ ? box_.width : box_.height;
@@ -139,7 +139,7 @@ ListRegion NeighbourLists::region_of_tiles(std::uint32_t first, std::uint32_t la
   region.core_is_of_x = layers_along_x_;
   region.core = region.core_size = 0;
   if (!(size > 0.0)) return region;
-  // Both are less than the side, so that they fit.
+  // Both are less than the side, so they fit in 32 bits.
   region.core = static_cast<std::uint32_t>(from / unit);
   region.core_size = static_cast<std::uint32_t>(size / unit);
   return region;
@@ -152,8 +152,8 @@ void NeighbourLists::set_core_between(double low, double high, ListRegion& regio
   region.core_size = static_cast<std::uint32_t>(std::clamp((high - low) / listed_box_.unit.y, 0.0, most));
 }
 
-// Disks that list each other are within their contact distance and 4 skins of each other while they stay listed, and
-// each is within the skin of where it is listed.
+// While disks that list each other stay listed, they are within their contact distance and 4 skins of each other, and
+// each is within the skin of its listed position.
 void NeighbourLists::find_inner_part() {
   const double reach = (2.0 * flow_.stretch * largest_radius_ + 4.0 * skin_ + search_margin_) * (1.0 + 1e-6);
   const double depth = mode_ == EngineMode::all_pairs ? never : reach;

@@ -14,13 +14,13 @@ namespace carom {
 
 namespace {
 
-// How many rows of new neighbours are prefetched: always the same number, which takes no branch. More are rare.
+// The number of rows of new neighbours that are prefetched: always the same, which takes no branch. More are rare.
 constexpr std::uint32_t prefetched_rows = 4;
 
 // Puts the offset at place `count` and fills the rest of the kernel's batch with it. capacity: of the list.
 template <std::uint32_t capacity>
 void put_and_pad(std::int16_t* offsets, std::uint32_t count, std::int16_t offset) {
-  // Four at once: some places too many do no harm, and it costs no branch.
+  // Four at once: this may write a few places too many, which does no harm, and costs no branch.
   using Four = std::int16_t __attribute__((vector_size(8)));
   const Four four = {offset, offset, offset, offset};
   static_assert(sizeof four == prediction_lanes * sizeof offset);
@@ -35,14 +35,14 @@ void put_and_pad(std::int32_t* offsets, std::uint32_t count, std::int32_t offset
   std::fill(offsets + count, offsets + std::min(count + prediction_lanes, capacity), offset);
 }
 
-// A row, to be searched for offsets. header: the 16 bytes before its offsets, 16-byte aligned.
+// Searches a row for offsets. header: the 16 bytes before its offsets, 16-byte aligned.
 class RowSearch {
  public:
 #if defined(__SSE2__)
   explicit RowSearch(const void* header) {
     for (int k = 0; k < 4; ++k) part_[k] = _mm_load_si128(static_cast<const __m128i*>(header) + k);
   }
-  // Bit k is set where the offset at place k is this one; above that, anything.
+  // Bit k is set if the offset at place k is this one; the bits above those of the row may be anything.
   std::uint32_t places_of(std::int16_t offset) const {
     const __m128i sought = _mm_set1_epi16(offset);
     const auto equal = [&](int k) { return _mm_cmpeq_epi16(part_[k], sought); };
@@ -73,7 +73,7 @@ bool ListRows::surely_within(std::uint32_t i, std::uint32_t first, std::uint32_t
   if (row.more != none || i < first || i >= last) return false;
   const auto below = static_cast<std::int32_t>(std::min<std::uint32_t>(i - first, 32767));
   const auto above = static_cast<std::int32_t>(std::min<std::uint32_t>(last - 1 - i, 32767));
-  // All places, whether in use or not: what they had before is near, too.
+  // All places are compared, whether in use or not: what they had before is near, too.
   std::int16_t least = 0;
   std::int16_t most = 0;
   for (std::uint32_t k = 0; k < row_capacity; ++k) {
@@ -164,11 +164,11 @@ void ListRows::free_wide_rows(std::uint32_t i) {
   row.sides &= static_cast<std::uint8_t>(~ListRow::has_more);
 }
 
-// Takes disk j out of the list of disk i, if it is there.
+// Removes disk j from the list of disk i, if it is there.
 void ListRows::remove(std::uint32_t i, std::uint32_t j) {
   Row& row = rows_[i];
   const auto offset = static_cast<std::int32_t>(j - i);
-  // Padding may have the offset too, but after it.
+  // The padding may contain the offset too, but behind it.
   const std::uint32_t places = RowSearch(&row).places_of(static_cast<std::int16_t>(offset));
   const auto place = static_cast<std::uint32_t>(std::countr_zero(places));
   if (place >= row.count || offset != static_cast<std::int16_t>(offset)) [[unlikely]] {
@@ -200,7 +200,7 @@ void ListRows::replace(std::uint32_t i, std::span<const std::uint32_t> near, con
   }
 }
 
-// However long they are.
+// Replaces a list of any length.
 void ListRows::exchange(std::uint32_t i, std::span<const std::uint32_t> near, const ListRegion& region) {
   for_each_neighbour(i, [&](std::uint32_t j) {
     if (region.holds(j)) remove(j, i);
@@ -210,14 +210,14 @@ void ListRows::exchange(std::uint32_t i, std::span<const std::uint32_t> near, co
   set(i, near);
 }
 
-// Where the old list is all in one row.
+// Replaces a list that is all in one row.
 void ListRows::patch(std::uint32_t i, std::span<const std::uint32_t> near, const ListRegion& region) {
   Row& row = rows_[i];
   const std::uint32_t old_count = row.count;
   const Row old = row;
   std::uint32_t fresh[row_capacity + 1];
   std::fill_n(fresh, prefetched_rows, i);
-  // Places beyond the new list keep what they had, or have 0: surely_within reads them too.
+  // Places beyond the new list keep their contents or become 0: surely_within reads them too.
   const ListChange change = change_kernel_(&old, old_count, i, near.data(), near.size(), {row.offset, fresh});
   if (!change.fits) [[unlikely]] {
     row = old;
@@ -225,7 +225,7 @@ void ListRows::patch(std::uint32_t i, std::span<const std::uint32_t> near, const
   }
   row.count = static_cast<std::uint8_t>(near.size());
   if (row.count > 0) put_and_pad<row_capacity>(row.offset, row.count, row.offset[0]);
-  // Many disks' rows are not in a cache: these come at the same time as those of `gone`.
+  // Many disks' rows are not in a cache: these are fetched at the same time as those of `gone`.
   for (std::uint32_t k = 0; k < prefetched_rows; ++k) __builtin_prefetch(&rows_[fresh[k]], 1);
   std::uint32_t gone[row_capacity];
   std::uint32_t count = 0;

@@ -1,5 +1,5 @@
-// The neighbour lists as they lie in memory: for each disk a row of the storage offsets to its neighbours, with the
-// position at which it is listed.
+// The neighbour lists in memory: for each disk a row of the storage offsets to its neighbours, with the position at
+// which it is listed.
 #pragma once
 
 #include <cstddef>
@@ -13,29 +13,29 @@
 
 namespace carom {
 
-// Cells and disks, both contiguous in memory, that one thread may read and write.
+// Cells and disks, each contiguous in memory, that one thread may read and write.
 struct ListRegion {
   static constexpr std::uint32_t all_keys = 0xffffffffU;
   std::uint32_t first_key = 0, last_key = all_keys;       // cells [first, last)
   std::uint32_t first_disk = 0, last_disk = 0xffffffffU;  // disks stored in [first, last)
   // The core: disks whose listed position has a coordinate in [core, core + core_size) can be relisted by this thread
-  // alone, wherever they are when they are due.
+  // alone, wherever they are when that is due.
   bool core_is_of_x = false;
   std::uint32_t core = 0, core_size = 0xffffffffU;
   bool holds(std::uint32_t disk) const { return disk >= first_disk && disk < last_disk; }
   bool is_everything() const { return first_disk == 0 && last_disk == 0xffffffffU; }
 };
 
-// Stores which disks are in which list; what makes two disks neighbours is the business of NeighbourLists.
+// Stores which disks are in which list; NeighbourLists decides which disks are neighbours.
 class ListRows {
  public:
-  // Makes rows for this many disks, in blocks of disks that share memory for long lists: a block is for one thread at a
-  // time. Rows keep what was in them, until it is set anew. There is room for a few more disks.
+  // Makes rows for this many disks, in blocks of disks that share memory for long lists; only one thread at a time may
+  // use a block. Rows keep their contents until they are set anew. There is room for a few more disks.
   void begin(std::size_t disks, std::size_t blocks);
   std::size_t size() const { return rows_.size(); }
   void release() { std::vector<Row>().swap(rows_); }
 
-  // All of a block's lists are forgotten; disk i belongs to the block, with an empty list.
+  // clear_block forgets all lists of a block; enter makes disk i a member of the block, with an empty list.
   void clear_block(std::size_t block);
   void enter(std::uint32_t i, std::size_t block, unsigned sides);
   std::uint32_t block_of(std::uint32_t i) const { return rows_[i].block; }
@@ -43,7 +43,7 @@ class ListRows {
   static constexpr std::uint32_t row_capacity = row_offsets;
   const ListRow& row(std::uint32_t i) const { return rows_[i]; }
   // Calls visit(offset, count) for the neighbours of disk i that are not in its row: disks i + offset[k]. Offsets
-  // beyond count, up to the next multiple of prediction_lanes, are ones of the list.
+  // beyond count, up to the next multiple of prediction_lanes, are equal to offsets of the list.
   template <class Visit>
   void visit_wide_rows(std::uint32_t i, Visit&& visit) const {
     const Row& row = rows_[i];
@@ -63,9 +63,10 @@ class ListRows {
     visit_wide_rows(i, some);
   }
 
-  // Are all neighbours of disk i stored in [first, last)? May say no where they are, never the other way round.
+  // Are all neighbours of disk i stored in [first, last)? May return false although they are, but never true if they
+  // are not.
   bool surely_within(std::uint32_t i, std::uint32_t first, std::uint32_t last) const;
-  // Are they all in the region?
+  // Are all of them in the region?
   bool are_within(std::uint32_t i, const ListRegion& region) const {
     if (region.is_everything() || surely_within(i, region.first_disk, region.last_disk)) return true;
     bool within = true;
@@ -73,8 +74,8 @@ class ListRows {
     return within;
   }
 
-  // Between windows: adds a disk, the last, with an empty list; removes the last one, whose list is empty and which no
-  // other disk lists.
+  // Between windows: append adds a disk, the last one, with an empty list; the next function removes the last disk,
+  // whose list is empty and which no other disk lists.
   void append(FixedPointPosition listed_at) {
     rows_.emplace_back();
     rows_.back().listed_at = listed_at;
@@ -91,15 +92,15 @@ class ListRows {
 
   // Gives disk i, whose list is empty, these neighbours.
   void set(std::uint32_t i, std::span<const std::uint32_t> near);
-  // Gives disk i another list, and adds it to or removes it from the lists of the disks that this concerns. The whole
-  // new list is in the region. Disks of other regions that list disk i keep it: a neighbour too many does no harm.
+  // Gives disk i a new list, which is entirely in the region, and adds disk i to or removes it from the lists of the
+  // disks that this concerns. Disks of other regions that list disk i keep it: a neighbour too many does no harm.
   [[gnu::hot]] void replace(std::uint32_t i, std::span<const std::uint32_t> near, const ListRegion& region);
 
  private:
   using Row = ListRow;
   static constexpr std::uint32_t none = Row::none;
   static_assert(row_padding == prediction_lanes);
-  // Neighbours that did not fit in the row.
+  // Neighbours that do not fit in the row.
   static constexpr std::uint32_t wide_row_capacity = 12;
   struct alignas(64) WideRow {
     std::int32_t offset[wide_row_capacity] = {};
@@ -119,7 +120,7 @@ class ListRows {
   EditKernels edit_kernels_ = choose_edit_kernels();
   std::vector<Row> rows_;
   std::vector<std::vector<WideRow>> wide_;  // of each block
-  std::vector<std::uint32_t> free_wide_;    // of each block: the first of its wide rows that are not in use
+  std::vector<std::uint32_t> free_wide_;    // of each block: the first of its unused wide rows
 };
 
 }  // namespace carom

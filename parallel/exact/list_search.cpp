@@ -1,4 +1,4 @@
-// The search of a new list: which cells are within reach, and which disks in them.
+// The search for a new list: the cells within reach, and the disks in them.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -9,7 +9,7 @@ namespace carom {
 
 namespace {
 
-// Makes single precision find a few disks too many rather than one too few.
+// Single precision then finds a few disks too many rather than one too few.
 constexpr double single_margin = 1.0 + 1e-5;
 
 }  // namespace
@@ -87,15 +87,15 @@ bool NeighbourLists::find_list(std::uint32_t i, Vec2 at, const Disks& d, const L
   found.count = 0;
   found.at = listed_box_.fixed_point(at.x, at.y);
   if (mode_ == EngineMode::all_pairs) return true;
-  // Neighbours of the old list must be in the region, too: one elsewhere would go on listing disk i, and when it comes
-  // near again and is relisted, it would take disk i for one that lists it as well.
+  // Neighbours of the old list must be in the region, too: one elsewhere would keep disk i in its list, and if it comes
+  // near again and is relisted, it would assume that disk i lists it as well.
   if (!rows_.are_within(i, region) || !find_neighbours(d, i, found.at, region, found)) return false;
   const std::span<const std::uint32_t> near = found.disks();
   const auto held = [&](std::uint32_t j) { return region.holds(j); };
   return region.is_everything() || std::all_of(near.begin(), near.end(), held);
 }
 
-// Takes no account of gravity: it is only a prefetch.
+// Neglects gravity, since it only prefetches.
 void NeighbourLists::prefetch_search(const PathSegment& path, double radius, double time,
                                      const RelistDistance& relist) const {
   if (mode_ == EngineMode::all_pairs || flow_.acts) return;
@@ -104,11 +104,11 @@ void NeighbourLists::prefetch_search(const PathSegment& path, double radius, dou
   visit_cells_in_reach(radius, listed_box_.fixed_point(at.x, at.y), [&](const CellBlock& block) {
     for_each_row(block, [&](auto first, auto last) { slots_.prefetch(first, last); });
   });
-  // g++ 12 leaves out calls of functions that do nothing but prefetch.
+  // g++ 12 drops calls of functions that only prefetch.
   std::atomic_signal_fence(std::memory_order_seq_cst);
 }
 
-// The disks chained to the cells of this block, one by one.
+// Adds the neighbours among the disks chained to the cells of this block, one by one.
 void NeighbourLists::search_chains(const Disks& d, const ListQuery& query, const CellBlock& block, std::uint32_t end,
                                    FoundNeighbours& found) const {
   const auto add = [&](std::uint32_t j) {

@@ -1,4 +1,4 @@
-// How long disks stay where neighbour lists have them. In a sheared box: flow_lists.cpp.
+// How long disks stay near their listed positions. For a sheared box: flow_lists.cpp.
 #include <algorithm>
 #include <cmath>
 
@@ -18,7 +18,7 @@ double NeighbourLists::earliest_relist_time(std::uint32_t i, const PathSegment& 
   double room = relist.length * (1.0 - 1e-9);
   double ahead = never;
   if (g > 0.0) {
-    // The straight path, less what gravity can bend it by in that time.
+    // The straight path, less the most by which gravity can bend it in that time.
     ahead = std::max(std::sqrt(2.0 * bend_share * relist.length / g), until - from);
     room -= 0.5 * g * ahead * ahead;
     if (!(room > 0.0)) return from;
@@ -26,8 +26,8 @@ double NeighbourLists::earliest_relist_time(std::uint32_t i, const PathSegment& 
   return from + std::min(time_within(room * room, {dx, dy}, {p.vx, p.vy}), ahead);
 }
 
-// A straight path whose ends are in a circle is in it; gravity bends it by g t^2 / 8 at most, so that it has to begin
-// and end further inside.
+// A straight path whose ends are in a circle stays in it; gravity bends it by at most g t^2 / 8, so the ends have to be
+// further inside by that.
 bool NeighbourLists::stays_listed_falling(std::uint32_t i, const PathSegment& path, double from, double until,
                                           const Gravity& g, const RelistDistance& relist) const {
   if (mode_ == EngineMode::all_pairs) return true;
@@ -39,7 +39,7 @@ bool NeighbourLists::stays_listed_falling(std::uint32_t i, const PathSegment& pa
   return begins_and_ends_within(room, listed_position(i), at(from), at(until));
 }
 
-// The image of the circle that both ends are to be in is the nearest one to the first: the path may go round the box,
+// Both ends must be in the same image of the circle, the nearest one to the first end: the path may go round the box,
 // to another image.
 bool NeighbourLists::begins_and_ends_within(double room, Vec2 centre, Vec2 first, Vec2 last) const {
   const Vec2 d = listed_box_.nearest_image_of({first.x - centre.x, first.y - centre.y});
@@ -47,8 +47,8 @@ bool NeighbourLists::begins_and_ends_within(double room, Vec2 centre, Vec2 first
   return room > 0.0 && d.x * d.x + d.y * d.y < room * room && end.x * end.x + end.y * end.y < room * room;
 }
 
-// Listed disks are within their contact distance and 4 skins of each other, carried back to the window's start by two
-// flights more; where that is less than half a period, the nearest image is the right one.
+// Listed disks are within their contact distance and 4 skins of each other, and at the window's start within two
+// flights more; if that is less than half a period, the nearest image is the right one.
 double NeighbourLists::safe_speed2(double length, double g) const {
   double period = HUGE_VAL;
   if (box_.periodic_x()) period = std::min(period, box_.width);

@@ -1,4 +1,4 @@
-// The box as listed positions see it: whole numbers along each side, which wrap round at the end of a period.
+// The box for listed positions: whole numbers along each side, which wrap round at the end of a period.
 #pragma once
 
 #include <algorithm>
@@ -25,26 +25,27 @@ struct ListedBox {
   Vec2 periods_per_length;  // 0: none
 
   Vec2 position_of(FixedPointPosition p) const { return {p.x * unit.x, p.y * unit.y}; }
-  // Along a period the whole number wraps by itself; between walls a rounding error may lead outside.
+  // Along a period the whole number wraps by itself; between walls, rounding may have put the place outside.
   [[gnu::hot]] FixedPointPosition fixed_point(double x, double y) const;
 
   // The nearest image of a difference of places, except for rounding.
   Vec2 nearest_image_of(Vec2 d) const {
-    // To the nearest whole number.
+    // Rounds to the nearest whole number.
     constexpr double shift = 0x1.8p52;
     d.x -= period.x * ((d.x * periods_per_length.x + shift) - shift);
     d.y -= period.y * ((d.y * periods_per_length.y + shift) - shift);
     return d;
   }
 
-  // Is this place out of the box along a period?
+  // Is this place outside the box along a period?
   bool is_outside(double x, double y) const {
     return (x < 0.0 && period.x > 0.0) || (y < 0.0 && period.y > 0.0) || (x >= period.x && period.x > 0.0) ||
            (y >= period.y && period.y > 0.0);
   }
   // A path may leave the box along a period and lead far into it from the other side. Its coordinates are then not
-  // those of the place where the disk is listed, so that disks there must look for images. How far from the border
-  // along each side a disk is listed whose path has come to p; 0 where p is in the box, or the disk nearer than `near`.
+  // those of the place where the disk is listed, so disks there must look for images. Returns, for a disk whose path
+  // has come to p, the distance from the border along each side at which it is listed; 0 if p is in the box, or the
+  // disk is listed nearer than `near`.
   Vec2 depth_beyond_border(Vec2 p, Vec2 listed, double near) const {
     const auto depth = [near](double c, double at, double length) {
       if ((c >= 0.0 && c < length) || length == 0.0) [[likely]]
@@ -59,12 +60,12 @@ struct ListedBox {
   static constexpr double two_to_31 = 2147483648.0;
 };
 
-// The most of a period that a skin takes, so that the nearest image of its listed position is the one that a disk is
-// within the skin of.
+// The largest share of a period that a skin may take, so that a disk is within the skin of the nearest image of its
+// listed position.
 inline constexpr double most_skin = 0.37;
 inline constexpr double most_skin_in_flow = 0.15;
 
-// The largest skin that the periods leave room for; length, infinite where there is none.
+// The largest skin that the periods leave room for; length, infinite without periods.
 inline double largest_skin(const Domain& box) {
   const double most = box.shear.acts() ? most_skin_in_flow : most_skin;
   double skin = HUGE_VAL;
@@ -73,8 +74,8 @@ inline double largest_skin(const Domain& box) {
   return skin;
 }
 
-// Can disks be listed with a skin? Not in a box some ten million times as long as its period across: a disk would be
-// out of so small a skin, by the rounding of its listed position, as soon as it is listed.
+// Can disks be listed with a skin? They cannot in a box some ten million times as long as its period across: by the
+// rounding of its listed position a disk would be outside so small a skin as soon as it is listed.
 inline bool can_list_in(const Domain& box) {
   constexpr double fewest_units = 64.0;
   const ListedBox listed(box);

@@ -46,7 +46,7 @@ void move_along_paths(const WindowState& window, const SliceScheduler& scheduler
   remove_marked(disks, gone);
 }
 
-// Both disks of a collision have a segment that begins with it.
+// Each of the two disks of a collision has a segment that begins with it.
 std::vector<DiskContact> contacts_of_window(const SliceScheduler& scheduler, const std::vector<DiskId>& id,
                                             double start, const std::function<bool(std::uint32_t)>& counts) {
   std::vector<DiskContact> met;

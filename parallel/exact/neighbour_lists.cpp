@@ -13,12 +13,12 @@ namespace carom {
 
 namespace {
 
-// Without tiles: disks whose long lists share a vector. Enough that there are few vectors, and few enough to share them
-// out among threads. The number of a block has 16 bits.
+// Without tiles: the number of disks whose long lists share a vector; enough that there are few vectors, and few enough
+// that blocks can be distributed among threads. The number of a block has 16 bits.
 constexpr std::size_t disks_per_block = 4096;
 constexpr std::size_t most_blocks = 65536;
-// So that a slightly larger disk that comes to a part does not make all lists anew, and a giant elsewhere no search
-// longer.
+// With this factor a slightly larger disk that comes to a part does not require new lists, and a giant elsewhere does
+// not make searches longer.
 constexpr double hardly_larger = 1.1;
 
 }  // namespace
@@ -48,7 +48,7 @@ void NeighbourLists::build(Disks& d, const Domain& box, const ListLayout& layout
   if (mode_ != EngineMode::all_pairs) {
     const double crowded = mode_ == EngineMode::regions ? 1.0 : crowding(d, box, layout.disks_of_box);
     choose_skin(d, layout, crowded);
-    // The memory of the rows is given back, as sorting needs some.
+    // The memory of the rows is freed first, since sorting needs some.
     if (gives_back) rows_.release();
     if (growth_ > 0.0) {
       sort_grown(d, layout, crowded, executor);
@@ -141,8 +141,8 @@ void NeighbourLists::find_all_others(std::uint32_t i, FoundNeighbours& found) co
   found.count = found.buffer.size();
 }
 
-// While it stays within the skin of its listed position, and until the end of the window where obstacles move.
-// Precondition: there are obstacles.
+// Can the disk touch an obstacle while it stays within the skin of its listed position, and until the end of the window
+// if obstacles move? Precondition: there are obstacles.
 bool NeighbourLists::may_touch_obstacle(Vec2 listed, double radius) const {
   if (mode_ == EngineMode::all_pairs) return true;
   const double reach = (radius + skin_) * (1.0 + 1e-6) + std::max(listed_box_.unit.x, listed_box_.unit.y);

@@ -1,4 +1,4 @@
-// Where a part of the box ends, and which parts are round it (HaloPart).
+// The ends of a part of the box, and the parts around it (HaloPart).
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@
 
 namespace carom {
 
-// The parts next to a part and at its corners, each once: of two parts along a period, each is on both sides of the
+// The parts next to a part and at its corners, each once: two parts that fill a period are each on both sides of the
 // other.
 class PartNeighbours {
  public:
   std::size_t count() const { return count_; }
   std::uint16_t part(std::size_t k) const { return part_[k]; }
-  // A bit for each of them: of the one that lies so many pieces further along x and y, -1 to 1, 0 if there is none; and
-  // of the one with this number, 0 if it is not next to the part.
+  // Each neighbour has a bit. bit_towards: of the part this number of pieces, -1 to 1, further along x and y; 0 if
+  // there is none. bit_of: of the part with this number; 0 if it is not a neighbour.
   std::uint8_t bit_towards(int along_x, int along_y) const { return towards_[place_towards(along_x, along_y)]; }
   std::uint8_t bit_of(std::size_t part) const {
     for (std::size_t k = 0; k < count_; ++k) {
@@ -43,32 +43,32 @@ class PartNeighbours {
   std::array<std::uint8_t, 9> towards_{};
 };
 
-// Which other parts an own disk has to do with, as PartNeighbours' bits.
+// The other parts that an own disk concerns, as PartNeighbours' bits.
 struct OtherParts {
-  std::uint8_t known_to = 0;   // those that have it as a ghost
-  std::uint8_t may_reach = 0;  // those that it may have come to since the lists were built
+  std::uint8_t known_to = 0;   // the parts that have it as a ghost
+  std::uint8_t may_reach = 0;  // the parts that it may have reached since the lists were built
 };
 
-// Which of the pieces along an axis: the one below the part's, its own, the one above.
+// A choice of pieces along an axis: the one below the part's, its own, the one above.
 struct PieceSteps {
   bool below, own, above;
 };
 
-// A part's ends along one axis; lengths. `between` has bounds where another piece follows.
+// A part's ends along one axis; lengths. `between` has bounds if there are other pieces.
 struct AxisEnds {
   KnownBand between;
-  // As in `between`: where the pieces next to this one end, and third ones begin.
+  // Relative to the centre, as in `between`: the far ends of the pieces next to this one, where third pieces begin.
   double next_below = -HUGE_VAL, next_above = HUGE_VAL;
 
-  // How far beyond the ends a coordinate is; negative between them.
+  // The distance of a coordinate beyond the ends; negative between them.
   double beyond(double c) const {
     const double d = between.from_centre(c);
     return std::fmax(d - between.above, between.below - d);
   }
 };
 
-// A part lies between two coordinates along either axis. Its own disks are those that lie there when the lists are
-// built, wherever they go until the next time.
+// A part lies between two coordinates along each axis. Its own disks are those that are there when the lists are built,
+// wherever they go until the lists are built again.
 struct PartEnds {
   AxisEnds x, y;
   PartNeighbours neighbours;
@@ -88,8 +88,9 @@ struct PartEnds {
     return static_cast<std::uint8_t>(bits);
   }
 
-  // The disk has been listed at this place and stays within `distance` of it: notes the parts that it may reach. False
-  // if one of them does not have it as a ghost, or if it may come to a third part: then the window would be void.
+  // Notes the parts that a disk may reach which has been listed at this place and stays within `distance` of it.
+  // Returns false if one of them does not have it as a ghost, or if it may come to a third part: then the window would
+  // be void.
   bool note_listing(Vec2 at, double distance, const DiskRecord& disk, OtherParts& others) const {
     if (disk.progress.has(DiskProgress::ghost)) return true;
     const double reach = (distance + disk.radius) * (1.0 + 1e-9);

@@ -1,4 +1,4 @@
-// The kernels that begin and end the paths of a window four disks at a time, where the machine has the instructions.
+// The kernels that begin and end the paths of a window, four disks at a time if the machine has the instructions.
 #pragma once
 
 #include <cstddef>
@@ -10,9 +10,9 @@
 
 namespace carom {
 
-// Of all disks, by storage index.
+// The columns of all disks, by storage index.
 struct BegunPaths {
-  const double* x;  // where they are
+  const double* x;  // positions
   const double* y;
   const double* vx;
   const double* vy;
@@ -20,31 +20,32 @@ struct BegunPaths {
   double radius;
   DiskRecord* record;
   CalendarEntry* entry;
-  bool relists_stay;  // a disk whose next event was that of being relisted still has it
+  bool relists_stay;  // a disk whose next event was relisting keeps it
   double length;      // of the window before
-  double early;       // by how much the times of next events come earlier than they were predicted
+  double early;       // the times of next events are made earlier by this than predicted
 };
 
-// Disks [begin, end) begin their paths where they are, at time 0. The time of a next event is from
-// the new start. A contact is predicted again, since rounding at the start of paths may make another event the first.
+// Begins the paths of disks [begin, end) where the disks are, at time 0, and makes the times of their next events
+// relative to the new start. Contacts are predicted again, since rounding at the start of paths may make another event
+// the first.
 using BeginPathsKernel = void (*)(const BegunPaths& in, std::size_t begin, std::size_t end);
 
-// The same of disks that lie in the columns of others, disk i at slot[i] of x, y, vx and vy.
+// The same for disks that are in the columns of other disks, disk i at slot[i] of x, y, vx and vy.
 void begin_paths_at(const std::uint32_t* slot, const BegunPaths& in, std::size_t begin, std::size_t end);
 
-// Of straight paths.
+// The columns to which straight paths lead.
 struct EndedPaths {
   const DiskRecord* record;
   double length;  // of the window
-  double* x;      // where it leaves the disks
+  double* x;      // positions at the window's end
   double* y;
   double* vx;
   double* vy;
-  // Disks are wrapped into [left, right) x [bottom, top); infinite where there is no period.
+  // Positions are wrapped into [left, right) x [bottom, top); these are infinite without a period.
   double left, right, bottom, top;
 };
 
-// Ends the paths of disks [begin, end). The place of a disk that is gone is not a number, and stays so.
+// Ends the paths of disks [begin, end). The position of a disk that has left the box is not a number, and stays so.
 using EndPathsKernel = void (*)(const EndedPaths& in, std::size_t begin, std::size_t end);
 
 struct PathKernels {
@@ -54,7 +55,7 @@ struct PathKernels {
 
 PathKernels path_kernels_baseline();
 PathKernels path_kernels_avx2();
-// The best versions for the processor at hand; the bits are the same.
+// The best versions for the processor in use; all have the same bits.
 PathKernels choose_path_kernels();
 
 }  // namespace carom

@@ -1,4 +1,4 @@
-// Compiled with -mavx2 on x86-64 (CMakeLists.txt); elsewhere it calls the baseline.
+// Compiled with -mavx2 on x86-64 (CMakeLists.txt); on other machines it calls the baseline.
 #include "parallel/exact/path_kernels.hpp"
 
 #if defined(__AVX2__)
@@ -28,7 +28,7 @@ inline Doubles all(double a) {
   return Doubles{a, a, a, a};
 }
 
-// Rows become columns, and columns rows.
+// Four vectors whose rows can be made columns.
 struct Square {
   Doubles a, b, c, d;
 };
@@ -59,7 +59,7 @@ inline void begin_path(const BegunPaths& in, std::size_t i, const Doubles& motio
   record.version = record.partner_version = 0;
 }
 
-// Times of four entries; what is beside them stays.
+// Shifts the times of four entries; their other members stay.
 inline void shift_times(const BegunPaths& in, std::size_t i) {
   const Doubles first = load(in.entry + i);
   const Doubles second = load(in.entry + i + 2);
@@ -70,7 +70,7 @@ inline void shift_times(const BegunPaths& in, std::size_t i) {
 static_assert(sizeof(CalendarEntry) == 2 * sizeof(double) && offsetof(CalendarEntry, time) == 0);
 
 void begin_paths(const BegunPaths& job, std::size_t begin, std::size_t end) {
-  const BegunPaths in = job;  // in registers: stores could change it otherwise
+  const BegunPaths in = job;  // a copy in registers, since stores might change the original
   std::size_t i = begin;
   for (; i + lanes <= end; i += lanes) {
     const Square motion = turned({load(in.x + i), load(in.y + i), load(in.vx + i), load(in.vy + i)});

@@ -6,10 +6,10 @@ namespace carom {
 
 namespace {
 
-// slot_of(i): where the columns have disk i.
+// slot_of(i): the index of disk i in the columns.
 template <class SlotOf>
 void begin(const BegunPaths& job, SlotOf&& slot_of, std::size_t begin, std::size_t end) {
-  const BegunPaths in = job;  // in registers: stores could change it otherwise
+  const BegunPaths in = job;  // a copy in registers, since stores might change the original
   for (std::size_t i = begin; i < end; ++i) {
     DiskRecord& record = in.record[i];
     const bool relists = in.relists_stay && record.partner.is_relist();

@@ -1,5 +1,5 @@
-// The collision of two smooth disks whose paths cross no border along a period: core's collide_paths operation by
-// operation, x and y of a vector at once. It is most of what the exact method does to disks.
+// The collision of two smooth disks whose paths cross no border along a period: the operations of core's collide_paths
+// in the same order, with x and y of a vector at once. The exact method spends most of its work on disks in it.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ using Coordinates = double __attribute__((vector_size(16)));
 static_assert(offsetof(PathSegment, y) == offsetof(PathSegment, x) + sizeof(double));
 static_assert(offsetof(PathSegment, vy) == offsetof(PathSegment, vx) + sizeof(double));
 
-// The two numbers from here on: an x, and the y behind it.
+// Loads two successive numbers: an x, and the y behind it.
 [[gnu::always_inline]] inline Coordinates load_xy(const double* x) {
   Coordinates v;
   __builtin_memcpy(&v, x, sizeof v);
@@ -30,7 +30,8 @@ static_assert(offsetof(PathSegment, vy) == offsetof(PathSegment, vx) + sizeof(do
   __builtin_memcpy(x, &v, sizeof v);
 }
 
-// What acts on all disks between collisions: nothing, or gravity. Each carries a path to time s as core's drift.
+// The motion of all disks between collisions: straight, or under gravity. Each type carries a path to time s as core's
+// drift does.
 struct FreeFlight {
   static constexpr bool falls = false;
   [[gnu::always_inline]] Coordinates place_at(double s, const PathSegment& p) const {
@@ -42,7 +43,7 @@ struct FreeFlight {
 struct FreeFall {
   static constexpr bool falls = true;
   Coordinates gravity, half_gravity;  // left and down; length / time^2
-  Coordinates zero;  // added to the change of velocity where drift adds one; else -0, which adds nothing
+  Coordinates zero;  // added to the change of velocity if drift adds one; otherwise -0, which adds nothing
 
   explicit FreeFall(const Gravity& g)
       : gravity{g.is_tilted() ? g.left : 0.0, g.down},
@@ -63,17 +64,17 @@ struct FreeFall {
   return v[0] + v[1];
 }
 
-// Where disks may be without meeting an image or crossing a border along a period.
+// The part of the box where disks meet no image and cross no border along a period.
 struct InnerPart {
-  Coordinates low, high;  // places from low to below high; sides without a period have no end
-  Coordinates far;        // of two disks: less far from each other, along x and along y
+  Coordinates low, high;  // from low to just below high; infinite along sides without a period
+  Coordinates far;        // two disks must be nearer than this to each other, along x and along y
 
   explicit InnerPart(const Domain& box)
       : low{box.periodic_x() ? 0.0 : -HUGE_VAL, box.periodic_y() ? 0.0 : -HUGE_VAL},
         high{box.periodic_x() ? box.width : HUGE_VAL, box.periodic_y() ? box.height : HUGE_VAL},
         far{0.5 * high} {}
 
-  // Are disks with these paths there at time s?
+  // Are disks with these paths in that part at time s?
   template <class Flight>
   [[gnu::always_inline]] bool holds(double s, const Flight& flight, const PathSegment& p, const PathSegment& q) const {
     const Coordinates at_p = flight.place_at(s, p);
@@ -84,21 +85,21 @@ struct InnerPart {
   }
 };
 
-// The same for all pairs.
+// The same restitution for all pairs.
 struct ConstantRestitution {
   double value;
   double operator()(const Relative& /*met*/) const { return value; }
 };
 
 struct PlainCollision {
-  bool happened = false;     // otherwise the disks recede by rounding: their paths only begin anew
+  bool happened = false;     // if false, the disks recede by rounding, and only begin new paths
   double change = 0.0;       // of the squared-distance rate, as collide() returns it
-  double shear_share = 0.0;  // of the virial that is PairImpact::shear_virial in a sheared box, of smooth disks
-  double fastest2 = 0.0;     // largest v^2 of both
+  double shear_share = 0.0;  // share of the virial that is PairImpact::shear_virial in a sheared box, for smooth disks
+  double fastest2 = 0.0;     // largest v^2 of the two disks
 };
 
 // Disks with these paths (smaller id first) collide at time s; their new paths start there. share: of their masses.
-// restitution(r): of disks that approach as r says.
+// restitution(r): for the relative motion r.
 template <class Flight, class RestitutionOf>
 [[gnu::always_inline]] inline PlainCollision collide_plainly(double s, const Flight& flight, Shares share,
                                                              const RestitutionOf& restitution, PathSegment& p,

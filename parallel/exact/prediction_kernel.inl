@@ -1,5 +1,5 @@
-// The kernel, compiled once for every instruction set; CAROM_PREDICTION_KERNELS names the version. It takes four
-// neighbours at a time.
+// The prediction kernel, compiled once for every instruction set; CAROM_PREDICTION_KERNELS names the version. It
+// processes four neighbours at a time.
 
 #if defined(__AVX2__)
 #include <immintrin.h>
@@ -20,7 +20,7 @@ struct Own {
   Doubles start, x, y, vx, vy, radius;
 };
 
-// Which images of its neighbours a disk may meet along a period.
+// The images of its neighbours that a disk may meet along a period.
 enum class Images {
   none,     // no border is between them: the disks themselves
   nearest,  // the nearest ones
@@ -28,7 +28,7 @@ enum class Images {
   sheared,  // the nearest ones of a sheared box
 };
 
-// Places and velocities of four disks.
+// Positions and velocities of four disks.
 struct Motions {
   Doubles x, y, vx, vy;
 };
@@ -50,20 +50,20 @@ template <Bend bend>
   m.y = m.y + rise;
 }
 
-// Of four pairs: places and velocities of the second disks relative to the first ones.
+// Four pairs: positions and velocities of the second disks relative to the first ones.
 struct Pairs {
   Doubles dx, dy, dvx, dvy;
-  Doubles contact_distance, contact2;  // the first for images beyond the nearest one alone
-  Doubles blur2;                       // PredictionConstants
+  Doubles contact_distance, contact2;  // contact_distance is used only for images beyond the nearest one
+  Doubles blur2;                       // PredictionConstants::blur2
 };
 
 inline Doubles magnitude(const PredictionConstants& f, Doubles v) {
   return number(bits(v) & bits(load(f.magnitude_bits)));
 }
 
-// Time until disks that are (dx, dy) apart touch; not a number where they do not. doubt: is set to the size of the
-// discriminant, less what rounding may shift it by; where they overlap by more than rounding, to (dr.dv)^2. Where that
-// is hardly more than 0, rounding decides whether they touch.
+// The time until disks that are (dx, dy) apart touch; not a number if they do not. Sets doubt to the size of the
+// discriminant less the most by which rounding may shift it; if the disks overlap by more than rounding, to (dr.dv)^2.
+// If it is hardly more than 0, rounding decides whether the disks touch.
 [[gnu::always_inline]] inline Doubles until_contact(const PredictionConstants& f, const Pairs& r, Doubles dx,
                                                     Doubles dy, Doubles& doubt) {
   const Doubles approach = dx * r.dvx + dy * r.dvy;
@@ -72,20 +72,20 @@ inline Doubles magnitude(const PredictionConstants& f, Doubles v) {
   const Doubles discriminant = speed2 * r.contact2 - cross * cross;
   const Doubles gap2 = (dx * dx + dy * dy) - r.contact2;
   doubt = magnitude(f, discriminant) + speed2 * smaller(gap2, r.blur2);
-  // Not a number where the paths miss.
+  // Not a number if the paths miss.
   const Doubles until_meeting = root(discriminant) - approach;
   const Doubles until = larger(gap2, load(f.zero)) / until_meeting;
-  // By the sign: where it matters, +0 and -0 are in doubt.
+  // Chosen by the sign bit of the approach: when the difference of +0 and -0 matters, the pair is in doubt anyway.
   return choose_by_sign(approach, until, load(f.magnitude_bits));
 }
 
-// core's nearest_image, where the distance may be half a period.
+// core's nearest_image, for distances that may be half a period.
 inline Doubles nearest_of_any(const PredictionConstants& f, Doubles d, const LaneConstant& period) {
   const Doubles beyond = choose(d > load(f.zero), d - load(period), d + load(period));
   return choose(magnitude(f, d) > all(0.5) * load(period), beyond, d);
 }
 
-// core's relative_in_shear, operation by operation. both: the time.
+// core's relative_in_shear, with the same operations. both: the time at which both disks are on their paths.
 [[gnu::always_inline]] inline void take_sheared_images(const PredictionConstants& f, Doubles both, Pairs& r) {
   const Doubles half = all(0.5) * load(f.image_y);
   const Longs below = r.dy > half;
@@ -100,16 +100,16 @@ inline Doubles nearest_of_any(const PredictionConstants& f, Doubles d, const Lan
   r.dvx = by_row(r.dvx + load(f.jump), r.dvx - load(f.jump), r.dvx);
 }
 
-// May the image behind the nearest one be met within `span`? d, dv: distance from the nearest, and its velocity, along
-// an axis with this period.
+// May the image behind the nearest one be met within `span`? d, dv: distance of the nearest image along an axis with
+// this period, and its velocity.
 [[gnu::always_inline]] inline Longs meets_image_behind(const PredictionConstants& f, const Pairs& r, Doubles span,
                                                        Doubles d, Doubles dv, const LaneConstant& period) {
   const Doubles reach = r.contact_distance * load(f.margin);
   return magnitude(f, dv) * span * load(f.margin) + reach >= load(period) - magnitude(f, d);
 }
 
-// core's time_to_far_contact, operation by operation: of `nearest`, the time until the nearest images touch, and those
-// until images beyond them do that may be met within `span`, the least.
+// core's time_to_far_contact, with the same operations: the least of `nearest`, the time until the nearest images
+// touch, and the times until images beyond them touch that may be met within `span`.
 [[gnu::always_inline]] inline Doubles until_any_image(const PredictionConstants& f, const Pairs& r, Doubles span,
                                                       Doubles nearest, Doubles& least) {
   const Longs far_x = meets_image_behind(f, r, span, r.dx, r.dvx, f.image_x);
@@ -133,9 +133,9 @@ inline Doubles nearest_of_any(const PredictionConstants& f, Doubles d, const Lan
   return choose(first < load(f.never), first, load(f.magnitude_bits));
 }
 
-// core's collision_time(), operation by operation: carried_to, relative, time_to_contact, touching_time. Differences
-// may have the other sign, which changes no bit of the time. Not a number where there is no contact. least:
-// the least doubt so far.
+// core's collision_time(), with the same operations: carried_to, relative, time_to_contact, touching_time. Differences
+// may have the opposite sign, which changes no bit of the time. Not a number if there is no contact. least: the least
+// doubt so far.
 template <Bend bend, bool unequal_radii, bool newest, Images images>
 [[gnu::always_inline]] inline Doubles four_contacts(const PredictionConstants& f, const Own& own, const DiskRecord& f0,
                                                     const DiskRecord& f1, const DiskRecord& f2, const DiskRecord& f3,
@@ -184,7 +184,7 @@ template <Bend bend, bool unequal_radii, bool newest, Images images>
   const Doubles until = until_contact(f, r, r.dx, r.dy, doubt);
   least = smaller(doubt, least);
   if constexpr (images == Images::sheared) {
-    // What this kernel does not know is in doubt.
+    // Pairs for which this kernel does not have all images are in doubt.
     const Doubles span = load(f.horizon) - both;
     least = number(bits(least) & ~(meets_image_behind(f, r, span, r.dx, r.dvx, f.image_x) |
                                    meets_image_behind(f, r, span, r.dy, r.dvy, f.image_y)));
@@ -197,7 +197,7 @@ template <Bend bend, bool unequal_radii, bool newest, Images images>
 
 constexpr FirstContact cannot_tell{std::numeric_limits<double>::quiet_NaN()};
 
-// Of a batch.
+// The places of a batch in the list, from the first one on.
 inline Longs places_from(const PredictionConstants& f, std::size_t first) {
   Longs v;
   __builtin_memcpy(&v, &f.place[first], sizeof v);
@@ -209,13 +209,14 @@ template <Bend bend, bool unequal_radii, bool newest, Images images, class Offse
                                                          const Offset* offset, std::size_t count) {
   if (count == 0) [[unlikely]]
     return {};
-  // Numbers are read here, into all lanes at once.
+  // Loads the numbers here, into all lanes at once.
   std::atomic_signal_fence(std::memory_order_seq_cst);
   const PathSegment& p = record->path;
   const Own own{all(p.start), all(p.x), all(p.y), all(p.vx), all(p.vy), all(record->radius)};
   Doubles doubt = load(f.never);
   const auto contacts_from = [&](std::size_t k) __attribute__((always_inline)) {
-    // Constants are read where they are each time: kept from one turn to the next they would be on the stack.
+    // Constants are loaded each time they are used: if they were kept in registers from one turn to the next, they
+    // would be moved to the stack.
     std::atomic_signal_fence(std::memory_order_seq_cst);
     const Offset* const n = offset + k;
     return four_contacts<bend, unequal_radii, newest, images>(f, own, record[n[0]], record[n[1]], record[n[2]],
@@ -226,7 +227,7 @@ template <Bend bend, bool unequal_radii, bool newest, Images images, class Offse
   for (std::size_t k = lanes; k < count; k += lanes) {
     const Doubles time = contacts_from(k);
     const Longs sooner = time < first;
-    // So is a tie.
+    // A tie is in doubt, too.
     doubt = number(bits(doubt) & ~(time == first));
     place_of_first = bits(choose(sooner, number(places_from(f, k)), number(place_of_first)));
     first = smaller(time, first);
@@ -239,7 +240,7 @@ template <Bend bend, bool unequal_radii, bool newest, Images images, class Offse
   const unsigned firsts = bits_of(first == least);
   found.neighbour = lane_of(place_of_first, firsts);
   if ((firsts & (firsts - 1)) != 0 && found.time < never) [[unlikely]] {
-    // Padding gives the same neighbour twice.
+    // Padding gives the same neighbour twice, which is no tie.
     for (unsigned left = firsts & (firsts - 1); left != 0; left &= left - 1) {
       if (offset[lane_of(place_of_first, left)] != offset[found.neighbour]) return cannot_tell;
     }
@@ -247,7 +248,8 @@ template <Bend bend, bool unequal_radii, bool newest, Images images, class Offse
   return found;
 }
 
-// x and y of a vector. Not plain_collision.hpp's: nothing that other files inline is compiled for AVX2 here.
+// x and y of a vector. The type of plain_collision.hpp is not used: functions that other files inline must not be
+// compiled for AVX2 here.
 using Coordinates = double __attribute__((vector_size(16)));
 
 inline Coordinates load(const AlongAxes& c) {
@@ -256,7 +258,7 @@ inline Coordinates load(const AlongAxes& c) {
   return v;
 }
 
-// Exactly.
+// The conversion is exact.
 inline Coordinates to_doubles(const PredictionConstants& f, const FixedPointPosition& p) {
 #if defined(__AVX2__)
   static_assert(sizeof p == sizeof(long long));
@@ -269,7 +271,7 @@ inline Coordinates to_doubles(const PredictionConstants& f, const FixedPointPosi
 #endif
 }
 
-// Squared distance of this place from that where a disk is listed.
+// Squared distance of this place from the place where a disk is listed.
 template <Images images>
 [[gnu::always_inline]] inline double distance2_from_listed(const PredictionConstants& f, Coordinates at,
                                                            Coordinates listed) {
@@ -283,26 +285,25 @@ template <Images images>
   return d2[0] + d2[1];
 }
 
-// Where a path is after a time s, in the frame in which disks are listed.
+// The place on a path after a time s, in the frame in which disks are listed.
 template <Bend bend>
 [[gnu::always_inline]] inline Coordinates place_after(const PredictionConstants& f, const PathSegment& path, double s) {
   Coordinates v{path.vx, path.vy};
   if constexpr (bend == Bend::down || bend == Bend::tilted) v = v - load(f.half_gravity) * Coordinates{s, s};
   const Coordinates at = Coordinates{path.x, path.y} + v * Coordinates{s, s};
   if constexpr (bend != Bend::flow) return at;
-  // FlowFrame::carried_back.
+  // As FlowFrame::carried_back.
   return Coordinates{at[0] - (f.flow.tilt + f.flow.rate * (path.start + s)) * (at[1] - f.flow.middle), at[1]};
 }
 
-// By how much a path that takes a time s may be bent away from the line between its ends; length.
+// The most by which a path of duration s may be bent away from the line between its ends; length.
 template <Bend bend>
 [[gnu::always_inline]] inline double bent_by(const PredictionConstants& f, const PathSegment& path, double s) {
   if constexpr (bend == Bend::flow) return 0.25 * __builtin_fabs(f.flow.rate * path.vy) * (s * s);
   return f.eighth_gravity * (s * s);
 }
 
-// Less than 0 where a path that takes a time s may come round the box from one image of the disk's listed position to
-// another.
+// Negative if a path of duration s may go round the box from one image of the disk's listed position to another.
 template <Bend bend>
 [[gnu::always_inline]] inline double way_left_round(const PredictionConstants& f, const PathSegment& path, double s) {
   if constexpr (bend == Bend::none) {
@@ -312,22 +313,22 @@ template <Bend bend>
   }
   const Coordinates way = place_after<bend>(f, path, s) - place_after<bend>(f, path, 0.0);
   const Coordinates way2 = way * way;
-  // Of a part of the path, too.
+  // This has to be true of each part of the path, too.
   const double straight = f.to_other_image - bent_by<bend>(f, path, s);
   const double left = straight * straight - (way2[0] + way2[1]);
   return straight < left ? straight : left;
 }
 
-// FirstContact::leaving_bit, or 0: as NeighbourLists::stays_listed, but for a rounding, and for paths that are so long
-// that they may come to another image of the listed position; where paths are bent as stays_listed_bent for the whole
-// of it.
+// FirstContact::leaving_bit, or 0: the opposite of NeighbourLists::stays_listed, except for rounding and for paths so
+// long that they may reach another image of the listed position; for bent paths, of stays_listed_bent for the whole
+// path.
 template <Bend bend, Images images>
 [[gnu::always_inline]] inline std::uint32_t leaving_bit(const PredictionConstants& f, const PathSegment& path,
                                                         const FixedPointPosition& listed_at, double until) {
   const double s = until - path.start;
   const Coordinates listed = to_doubles(f, listed_at) * load(f.listed_unit);
   const double end2 = distance2_from_listed<images>(f, place_after<bend>(f, path, s), listed);
-  // The sign of what is left.
+  // The sign of this decides: it is the room left.
   double left = f.stay2 - end2;
   if constexpr (bend != Bend::none) {
     const double start2 = distance2_from_listed<images>(f, place_after<bend>(f, path, 0.0), listed);

@@ -1,5 +1,5 @@
 // Four doubles at a time, for the prediction kernel: in the compilers' own vector types, which the compiler splits on a
-// machine without them. Included by prediction_kernel.inl alone, once for every instruction set.
+// machine without vectors of four. Included only by prediction_kernel.inl, once for every instruction set.
 #pragma once
 
 #include <bit>
@@ -55,7 +55,7 @@ inline Doubles choose(Longs truth, Doubles a, Doubles b) {
 #endif
 }
 
-// a where the sign of `sign` is set.
+// a if the sign bit of `sign` is set, otherwise b.
 inline Doubles choose_by_sign(Doubles sign, Doubles a, Doubles b) {
 #if defined(__AVX__)
   return __builtin_ia32_blendvpd256(b, a, sign);
@@ -72,7 +72,7 @@ inline Doubles root(Doubles v) {
 #endif
 }
 
-// The next two give b where one of both is not a number.
+// The next two functions give b if a or b is not a number.
 inline Doubles larger(Doubles a, Doubles b) {
 #if defined(__AVX__)
   return __builtin_bit_cast(Doubles, __builtin_ia32_maxpd256(a, b));
@@ -89,7 +89,7 @@ inline Doubles smaller(Doubles a, Doubles b) {
 #endif
 }
 
-// Bit k is set where lane k is true.
+// Bit k is set if lane k is true.
 inline unsigned bits_of(Longs truth) {
 #if defined(__AVX__)
   return static_cast<unsigned>(__builtin_ia32_movmskpd256(number(truth)));
@@ -113,7 +113,7 @@ inline Doubles least_of_all(Doubles v) {
   return smaller(pairs, __builtin_shufflevector(pairs, pairs, 1, 0, 3, 2));
 }
 
-// Of whole numbers below 2^31, that of the first lane whose bit is set.
+// The element of v, whole numbers below 2^31, in the first lane whose bit is set.
 inline std::uint32_t lane_of(Longs v, unsigned set) {
 #if defined(__AVX2__)
   using Ints = int __attribute__((vector_size(32)));
@@ -125,7 +125,7 @@ inline std::uint32_t lane_of(Longs v, unsigned set) {
 #endif
 }
 
-// To the nearest whole number, |v| < 2^51.
+// Rounds to the nearest whole number, |v| < 2^51.
 inline Doubles rounded(Doubles v) {
 #if defined(__AVX__)
   return __builtin_ia32_roundpd256(v, 8);
@@ -135,7 +135,7 @@ inline Doubles rounded(Doubles v) {
 #endif
 }
 
-// Further than 0.01 periods from half a period this takes the same image as core's nearest_image, by the same one
+// Further than 0.01 periods from half a period this takes the same image as core's nearest_image, by the same single
 // subtraction: d - 0 is d, and d - (-period) is d + period.
 inline Doubles nearest(Doubles d, const LaneConstant& period, const LaneConstant& periods_per_length) {
   return d - load(period) * rounded(d * load(periods_per_length));

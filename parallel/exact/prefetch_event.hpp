@@ -1,5 +1,5 @@
-// Prefetching what an event reads, some events before it comes. Inlined, as g++ 12 leaves out calls of functions that
-// do nothing but prefetch.
+// Prefetches the data of an event some events before it comes. The functions are inlined, since g++ 12 drops calls of
+// functions that only prefetch.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +11,11 @@
 
 namespace carom {
 
-// Four at a time, which a prediction takes at once too.
+// Four at a time, as in a prediction.
 [[gnu::always_inline]] inline void prefetch_neighbours(const DiskRecord* record, const NeighbourLists& lists,
                                                        std::uint32_t i) {
   const ListRow& row = lists.rows().row(i);
-  // In bytes: as records, compilers add i to each offset first.
+  // Offsets are added in bytes: with records, compilers would add i to each offset first.
   const char* const own = reinterpret_cast<const char*>(record + i);
   const auto prefetch = [own](std::int16_t offset) __attribute__((always_inline)) {
     __builtin_prefetch(own + std::ptrdiff_t{offset} * std::ptrdiff_t{sizeof(DiskRecord)});
@@ -32,9 +32,9 @@ namespace carom {
   } while (offset < end);
 }
 
-// For an event of disk i. At stage 0 the disk and its list; at stage 1, when those have come, its neighbours, its
-// partner and the partner's list, or the cells that are searched when it is relisted; at stage 2 the partner's
-// neighbours. Reads nothing outside the worker's region.
+// For an event of disk i. Stage 0 prefetches the disk and its list; stage 1, when those have come, its neighbours, its
+// partner and the partner's list, or the cells that are searched if it is relisted; stage 2 the partner's neighbours.
+// Reads nothing outside the worker's region.
 [[gnu::always_inline]] inline void prefetch_event(const DiskRecord* record, const NeighbourLists& lists,
                                                   const Worker& worker, std::uint32_t i, int stage) {
   if (stage == 0) {

@@ -12,7 +12,7 @@ struct Region {
   Worker worker;
   std::uint32_t middle_tile = 0;           // the first tile of its second half
   std::vector<std::uint32_t> border;       // disks marked at_border
-  std::vector<std::uint32_t> near_border;  // disks marked lists_border; some have come to be at the border since
+  std::vector<std::uint32_t> near_border;  // disks marked lists_border; some have since come to the border
 };
 
 }  // namespace carom

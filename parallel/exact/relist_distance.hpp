@@ -1,4 +1,4 @@
-// How far disks may move from their listed positions, and how long that takes.
+// The distance that disks may move from their listed positions, and the time that this takes.
 #pragma once
 
 #include <cmath>
@@ -8,17 +8,19 @@
 
 namespace carom {
 
-// How far a disk may move from its listed position before it is relisted.
+// The distance that a disk may move from its listed position before it is relisted.
 struct RelistDistance {
   double length = 0.0;
   double stay2 = never;  // the length squared, a little less
-  double lead2 = 0.0;    // squared: how far ahead of where it is a disk is listed at most
+  double lead2 = 0.0;    // square of the most by which a disk is listed ahead of its position
 };
 
-// A disk is listed ahead of where it is by at most this share of the relist distance, since it has to be within that
-// distance, less what gravity may bend its path by: where it is not, it is due at once, for ever.
+// A disk is listed ahead of its position by at most this share of the relist distance, since it must be within that
+// distance, less the most by which gravity may bend its path: otherwise relisting would be due at once, and again for
+// ever.
 inline constexpr double most_lead = 0.8;
-// How far gravity or a flow may bend a path before it is asked again how long the disk stays, over the relist distance.
+// The most by which gravity or a flow may bend a path before it is checked again how long the disk stays listed, over
+// the relist distance.
 inline constexpr double bend_share = 0.1;
 static_assert(most_lead < 1.0 - bend_share);
 
@@ -26,8 +28,8 @@ inline RelistDistance relist_distance_of(double length) {
   return {length, length * length * (1.0 - 2e-9), most_lead * most_lead * length * length};
 }
 
-// For how long a point that is now at d and moves at velocity v stays within a distance of the origin; 0 if it is not
-// within it now. distance2: the distance squared.
+// The time for which a point that is now at d and moves at velocity v stays within a distance of the origin; 0 if it is
+// outside now. distance2: the distance squared.
 inline double time_within(double distance2, Vec2 d, Vec2 v) {
   const double c = distance2 - (d.x * d.x + d.y * d.y);
   if (!(c > 0.0)) return 0.0;

@@ -1,5 +1,4 @@
-// When disks are relisted: a part of EventProcessor. Included by event_processor.cpp alone, so that it is inlined
-// there.
+// When disks are relisted: a part of EventProcessor. Included only by event_processor.cpp, so that it is inlined there.
 #pragma once
 
 #include <algorithm>
@@ -37,7 +36,7 @@ void EventProcessor<scope>::relist_and_predict(std::uint32_t i, double time) {
   }
 }
 
-// Near borders disks are relisted sooner, since relisting may have to wait for a slice's end. With one queue there are
+// Near borders disks are relisted earlier, since relisting may have to wait for a slice's end. With one queue there are
 // no borders.
 template <Scope scope>
 inline bool EventProcessor<scope>::is_near_border(std::uint32_t i) const {
@@ -52,9 +51,9 @@ bool EventProcessor<scope>::stays_in_skin(std::uint32_t i, double time) const {
   return lists_.stays_in_skin(i, p.x, p.y, window_.speed_bound * (window_.slice_stop() - time));
 }
 
-// Region: the disk's further events wait for the border pass, and relisting does, too. So the disk is relisted now if
-// it could leave its skin before the slice's end. Where this thread cannot do that the window is void; it is run again
-// with new lists and shorter slices.
+// Region: the disk's further events, and its relisting, wait for the border pass. So the disk is relisted now if it
+// could leave its skin before the slice's end. If this thread cannot do that, the window is void, and is run again with
+// new lists and shorter slices.
 template <Scope scope>
 void EventProcessor<scope>::block(std::uint32_t i, double time) {
   if (!stays_in_skin(i, time)) [[unlikely]] {
@@ -65,7 +64,7 @@ void EventProcessor<scope>::block(std::uint32_t i, double time) {
   safe_times_.block(i, time);
 }
 
-// Where the disk cannot be listed where it is, its listed position is moved only as far as it has to be.
+// If the disk cannot be listed at its place, its listed position is moved only as far as necessary.
 template <Scope scope>
 bool EventProcessor<scope>::relist_a_little(std::uint32_t i, double time) {
   PathSegment p = carried_to(record_[i].path, time, window_.rules.gravity);
@@ -123,7 +122,7 @@ void EventProcessor<scope>::relist_if_far(std::uint32_t i) {
   if (is_far) mark_relisted(i);
 }
 
-// Returns false, without a change, if that would change lists of another region or bring the disk to a border.
+// Returns false, without a change, if relisting would change lists of another region or bring the disk to a border.
 template <Scope scope>
 bool EventProcessor<scope>::relist(std::uint32_t i, double time, const RelistDistance& ahead) {
   const PathSegment p = carried_to(record_[i].path, time, window_.rules.gravity);
@@ -135,8 +134,8 @@ bool EventProcessor<scope>::relist(std::uint32_t i, double time, const RelistDis
   return true;
 }
 
-// Does something only where the disk's path has left the box and leads far into it from the other side: the disk and
-// its neighbours then look for images. So must disks that are relisted at such a depth in the rest of the window.
+// Acts only if the disk's path has left the box and leads far into it from the other side: the disk and its neighbours
+// then look for images, and so must disks that are relisted at such a depth in the rest of the window.
 template <Scope scope>
 void EventProcessor<scope>::show_images_if_far(std::uint32_t i, double time) {
   const PathSegment p = carried_to(record_[i].path, time, window_.rules.gravity);

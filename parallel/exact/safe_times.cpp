@@ -7,8 +7,8 @@ namespace carom {
 
 namespace {
 
-// Where a safe time that has come proves to be later by more than this share of the slice, it is kept anew; otherwise
-// the disk is blocked.
+// If a safe time that has come proves to be later by more than this share of the slice, the disk goes on until then;
+// otherwise it is blocked.
 constexpr double worthwhile_share = 1.0 / 16.0;
 
 bool is_due_later(const SafeTimeDue& a, const SafeTimeDue& b) {
@@ -30,7 +30,7 @@ inline SafeTimes::Place SafeTimes::place_at(std::uint32_t i, double time) const 
   return {time, x, y, f.radius};
 }
 
-// inside: there is no image nearer than b itself (ListRow::is_inside).
+// inside: no image of b is nearer than b itself (ListRow::is_inside).
 inline double SafeTimes::distance2(const Place& a, const Place& b, bool inside) const {
   Vec2 apart{b.x - a.x, b.y - a.y};
   if (!inside) [[unlikely]]
@@ -38,14 +38,14 @@ inline double SafeTimes::distance2(const Place& a, const Place& b, bool inside) 
   return apart.x * apart.x + apart.y * apart.y;
 }
 
-// The largest speed at which disk i and one whose motion is not known come closer.
+// The largest speed at which disk i and a disk whose motion is not known can approach each other.
 double SafeTimes::closing_speed(std::uint32_t i) const {
   const PathSegment& p = window_.record[i].path;
   return std::sqrt(p.vx * p.vx + p.vy * p.vy) + window_.rules.gravity.size * window_.length + window_.speed_bound;
 }
 
-// The safe time of disk i on its present path, `time` or later; `never` if it is not within the slice. Most neighbours
-// are too far away to touch it within the slice, which the square of the distance tells.
+// The safe time of disk i on its present path, at least `time`; `never` if it is not within the slice. Most neighbours
+// are too far away to touch it within the slice, which the square of the distance shows.
 SafeTimes::SafeTime SafeTimes::safe_time(std::uint32_t i, double time) const {
   SafeTime first;
   const DiskRecord* const record = window_.record.data();
@@ -144,7 +144,7 @@ void SafeTimes::mark_relisted_at_border(std::uint32_t i) {
   });
 }
 
-// From the next slice on: in this one a disk that was active goes on as it did.
+// The mark counts from the next slice on: in this one a disk that was active stays active.
 void SafeTimes::mark_border(std::uint32_t i) {
   if (window_.record[i].progress.has(DiskProgress::at_border)) return;
   window_.record[i].progress.set(DiskProgress::at_border);

@@ -1,4 +1,4 @@
-// With regions: up to when the path of a disk is right while the motion of others is not known.
+// With regions: the time up to which the path of a disk is right while the motion of others is not known.
 #pragma once
 
 #include <cstdint>
@@ -11,25 +11,25 @@ namespace carom {
 
 // No disk is faster than window.speed_bound. So a disk whose motion is not known yet cannot touch disk i before disk
 // i's safe time: gap / (speed_bound + own speed) after the moment up to which that motion is known. Disk i is blocked
-// at its safe time; up to then its path is right, whatever happens elsewhere.
+// at its safe time; up to then its path is right, whatever the other disk does.
 class SafeTimes {
  public:
   SafeTimes(WindowState& window, NeighbourLists& lists, Worker& worker)
       : window_(window), lists_(lists), worker_(worker) {}
 
-  // When the first safe time is due; `never` if there is none.
+  // The time at which the first safe time is due; `never` if there is none.
   double first() const { return worker_.safe_times.empty() ? never : worker_.safe_times.front().time; }
   // Computes the safe time of a disk whose motion is known up to `time`, and keeps it if it is within the slice.
   void push(std::uint32_t i, double time);
-  // Takes the first safe time that is due and computes it again, as it may have become later. Is the disk to be blocked
-  // now?
+  // Takes the first safe time that is due and computes it again, since it may have become later. Returns whether the
+  // disk must be blocked now.
   bool reach_first(SafeTimeDue& due);
-  // Disk i's motion is not known from now on, so that its active neighbours get safe times too.
+  // Disk i's motion is not known from now on: its active neighbours get safe times, too.
   void block(std::uint32_t i, double time);
 
   // Disk i of a region, which is not at its border, has a new list: computes its safe time as push() does.
   void mark_relisted(std::uint32_t i, double time);
-  // A disk i, wherever it is, has a new list, and other disks list it than before: sets the marks that follow.
+  // Disk i, of any place, has a new list, and other disks list it than before: sets the resulting marks.
   void mark_relisted_at_border(std::uint32_t i);
 
  private:
@@ -37,7 +37,7 @@ class SafeTimes {
     double time = never;
     bool any = false;  // is there a neighbour whose motion is not known?
   };
-  // Where a disk is at a time.
+  // The place of a disk at a time.
   struct Place {
     double time;
     double x, y;

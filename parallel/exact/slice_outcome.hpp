@@ -1,14 +1,14 @@
-// How a slice of a window of the exact engine ended.
+// The outcome of a slice of a window of the exact engine.
 #pragma once
 
 #include <cstdint>
 
 namespace carom {
 
-// Unless it is `done`, the window is void: nothing of it counts.
+// Unless the outcome is `done`, the window is void and has no effect.
 enum class SliceOutcome : std::uint8_t {
   done,
-  ghosts_too_few,      // what happened to a disk of this rank, or of this part of the box, depends on disks not here
+  ghosts_too_few,      // the motion of a disk of this rank, or part of the box, depends on disks that it does not have
   strangers_too_near,  // disks that a neighbouring rank does not have came nearer to it than it assumes
   crowded,             // the window holds too many events (core/step/window_length.hpp)
   too_fast,            // a disk was faster than the speed bound, or could have left its skin

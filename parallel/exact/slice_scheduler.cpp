@@ -9,7 +9,8 @@ namespace carom {
 
 namespace {
 
-// Events per disk in a slice, at most. With fewer, less is left to the border pass; with more, there are fewer passes.
+// The largest number of events per disk in a slice. With a smaller one, fewer events are left to the border pass; with
+// a larger one, there are fewer passes.
 constexpr double events_per_slice = 0.25;
 
 }  // namespace
@@ -68,8 +69,8 @@ void SliceScheduler::lay_out_regions() {
   executor_.run(count, [&](std::size_t r) { find_near_border(regions_[r]); });
 }
 
-// Ghosts may be at a border in any window, so that they are relisted as early as disks near a border are. Disks in the
-// rank's own slab never are at one: the window would be void.
+// Ghosts may be at a border in any window, so they are relisted as early as disks near a border. Disks in the rank's
+// own slab never are at one, since the window would be void.
 void SliceScheduler::set_core_of_rank(ListRegion& region) const {
   const WindowGhosts::Heights own = ghosts_->own_heights();
   lists_.set_core_between(own.low, own.high, region);
@@ -102,8 +103,8 @@ void SliceScheduler::find_near_border(Region& region) {
   }
 }
 
-// So short that a disk at a border, which is not relisted before the slice's end, does not leave its skin: it begins
-// the slice within the relist distance.
+// A slice is so short that a disk at a border, which is not relisted before the slice's end, does not leave its skin;
+// it begins the slice within the relist distance.
 double SliceScheduler::longest_slice() const {
   return has_regions() ? slice_room_ / window_.speed_bound : never;
 }
@@ -152,7 +153,7 @@ SliceOutcome SliceScheduler::outcome() const {
   });
   if (given_up) return SliceOutcome::given_up;
   if (too_fast) return SliceOutcome::too_fast;
-  // Where events pile up at one moment, regions and parts cannot tell at which of them the reference would stop.
+  // If events pile up at one moment, regions and parts cannot tell at which of them the reference would stop.
   if (collapsed && (has_regions() || window_.is_part)) return SliceOutcome::crowded;
   return crowded || segments() > window_.most_paths ? SliceOutcome::crowded : SliceOutcome::done;
 }
@@ -191,7 +192,7 @@ void SliceScheduler::run_regions(double per_disk) {
   take_in_new_border(border_pass_.new_border(), border_pass_.new_near_border());
 }
 
-// The same on one of several ranks. No rank returns before all know how the slice ended on each.
+// The same on one of several ranks. No rank returns before all know the slice's outcome on each.
 SliceOutcome SliceScheduler::run_with_ghosts(double per_disk) {
   const Count before = events();
   Region& region = regions_.front();
@@ -215,8 +216,8 @@ SliceOutcome SliceScheduler::run_with_ghosts(double per_disk) {
   return SliceOutcome::done;
 }
 
-// Does the motion of an own disk up to the slice's end depend on disks that are not here? Or that of any disk in the
-// rank's slab, from the slice's start on? That one could leave its skin.
+// Does the motion of an own disk up to the slice's end depend on disks that this rank does not have? Or that of any
+// disk in the rank's slab, from the slice's start on? Such a disk could leave its skin.
 bool SliceScheduler::depends_on_others() const {
   const auto is_own = [this](std::uint32_t i) { return !window_.record[i].progress.has(DiskProgress::ghost); };
   const Region& region = regions_.front();
@@ -226,8 +227,8 @@ bool SliceScheduler::depends_on_others() const {
                      [&](const BlockedDisk& blocked) { return is_own(blocked.disk); });
 }
 
-// All paths are now those at the slice's end. First disks are relisted where they have to be, then the events of the
-// blocked disks are predicted.
+// All paths are now those at the slice's end. First the disks that have moved too far are relisted, then the events of
+// the blocked disks are predicted.
 void SliceScheduler::see_slice_of_others() {
   others_.begin_slice();
   others_.region = ListRegion{};
@@ -246,7 +247,7 @@ void SliceScheduler::mark_ghosts() {
   }
 }
 
-// Disks that may meet one that is not here in this window are at a border, too.
+// Disks that may meet in this window one that the rank does not have are at a border, too.
 void SliceScheduler::mark_edges() {
   Region& region = regions_.front();
   for (std::uint32_t i = 0; i < window_.record.size(); ++i) {
@@ -280,7 +281,7 @@ void SliceScheduler::begin_slice(Region& region) {
   region.worker.begin_slice();
 }
 
-// Disks that were blocked go on with the region.
+// Disks that were blocked become active in their region again.
 void SliceScheduler::finish_slice(Region& region) {
   EventProcessor<Scope::region> events(window_, lists_, region.worker);
   for (const BlockedDisk& blocked : region.worker.blocked) {
@@ -291,8 +292,8 @@ void SliceScheduler::finish_slice(Region& region) {
                             region.worker.near_border.end());
 }
 
-// A disk that was elsewhere may have moved further than is allowed near a border, and is relisted then. That may bring
-// other disks to the border, or near it: both lists may grow on the way.
+// A disk that was not near a border may have moved further than is allowed there, and is then relisted. That may bring
+// other disks to the border, or near it, so both lists may grow on the way.
 void SliceScheduler::take_in_new_border(const std::vector<std::uint32_t>& border,
                                         const std::vector<std::uint32_t>& near_border) {
   std::size_t at = 0;
@@ -314,7 +315,7 @@ void SliceScheduler::take_in_border(std::uint32_t i) {
   if (ghosts_ == nullptr) border_pass_.relist_if_far(i);
 }
 
-// With ghosts, a disk near a border is relisted within the slice, before it is blocked if need be.
+// With ghosts, a disk near a border is relisted within the slice, before it is blocked if necessary.
 void SliceScheduler::take_in_near_border(std::uint32_t i) {
   Region& region = region_of(i);
   region.near_border.push_back(i);

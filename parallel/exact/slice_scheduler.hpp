@@ -1,4 +1,4 @@
-// The events of a slice of a window, shared out among regions and threads.
+// The events of a slice of a window, distributed among regions and threads.
 #pragma once
 
 #include <cstdint>
@@ -22,9 +22,9 @@ namespace carom {
 // region, a run of layers, and processes the events of its disks as far as they do not depend on disks whose motion is
 // not known yet. A disk that lists one of another region is at the border; its motion in a slice becomes known in the
 // border pass, after all regions. So does the motion of disks that are blocked because of such a disk. Which worker
-// processes an event depends on the threads, but the event does not. On one of several ranks there is one region, and
-// disks near the edge of what the rank has are at a border; ghosts whose motion depends on disks that are not here get
-// their paths from other ranks.
+// processes an event depends on the number of threads, but the event does not. On one of several ranks there is one
+// region, and disks near the edge of the rank's known band are at a border; ghosts whose motion depends on disks that
+// the rank does not have get their paths from other ranks.
 class SliceScheduler {
  public:
   SliceScheduler(WindowState& window, NeighbourLists& lists, const Executor& executor)
@@ -35,37 +35,37 @@ class SliceScheduler {
   void begin_window(bool rebuilt, double per_disk);
 
   // The end of the slice that begins at time `start` of a window of this length; `never` for the last slice. Slices are
-  // of nearly equal length. per_disk and precondition as above.
+  // of nearly equal length. per_disk and preconditions as for begin_window.
   double slice_end(double length, double start, double per_disk) const;
 
-  // Runs a slice, the window's first where start is 0. per_disk: as above, about. window_start: time of the run. At
-  // inelastic collapse the outcome is `crowded` with regions and for a part; with a single queue it throws
-  // PhysicsError.
+  // Runs a slice; it is the window's first one if start is 0. per_disk: as for begin_window, may be approximate.
+  // window_start: time of the run. At inelastic collapse the outcome is `crowded` with regions and for a part; with a
+  // single queue PhysicsError is thrown.
   SliceOutcome run(double start, double end, double per_disk, double window_start);
-  // With a single queue: the event at which the window was seen to be crowded, the same as the reference's.
+  // With a single queue: the event at which the window proved to be crowded, the same as in the reference.
   const EventMark& crowding() const { return *single_.crowded; }
 
-  // Of a part, at the end of a slice: as WindowRun::replace_paths.
+  // For a part, at the end of a slice: as WindowRun::replace_paths.
   void replace_paths(const std::vector<std::uint32_t>& disks);
 
-  // Of the window so far.
+  // For the window so far.
   ImpactTally tally() const;
   Count events() const;
   bool any_gone() const;
-  // read(segments, spins) for each worker; of smooth disks spins is empty.
+  // Calls read(segments, spins) for each worker; spins is empty for smooth disks.
   template <class Read>
   void read_logs(Read&& read) const {
     for_each_worker([&](const Worker& worker) { read(worker.log, worker.spin_log); });
   }
-  // Between windows: gives back the memory of the calendars.
+  // Between windows: frees the memory of the calendars.
   void release_calendars();
-  // With regions: called at the end of each slice, before blocked disks go on.
+  // With regions: watch is called at the end of each slice, before blocked disks continue.
   void set_border_watch(const BorderWatch& watch) { watch_ = watch; }
-  // On one of several ranks; outlives the scheduler.
+  // For one of several ranks; the ghosts outlive the scheduler.
   void set_ghosts(WindowGhosts* ghosts) { ghosts_ = ghosts; }
   // Events of the last slice, on all ranks.
   Count events_of_slice() const { return events_of_slice_; }
-  // Paths begun in the window, of a part by its own disks.
+  // Paths begun in the window; for a part, by its own disks.
   Count segments() const;
   // Disks relisted since the lists were built.
   Count relisted() const { return relisted_; }
@@ -109,10 +109,10 @@ class SliceScheduler {
   Worker single_;           // with a single queue: all disks
   Count relisted_ = 0;
   BorderWatch watch_;
-  double slice_room_ = 0.0;  // no disk may go further in a slice; length
+  double slice_room_ = 0.0;  // most that a disk may fly in a slice; length
   Count events_of_slice_ = 0;
   WindowGhosts* ghosts_ = nullptr;
-  Worker others_;  // of ghosts whose paths come from other ranks
+  Worker others_;  // for ghosts whose paths come from other ranks
   std::vector<std::uint32_t> unknown_;
 };
 

@@ -1,5 +1,5 @@
-// What the exact engine on one of several ranks asks of the others. A rank has its own disks, and ghosts: disks of
-// other ranks that are near. It processes the events of both, as far as they are known.
+// The exchange of the exact engine on one of several ranks with the others. A rank has its own disks, and ghosts:
+// nearby disks of other ranks. It processes the events of both, as far as they are known.
 #pragma once
 
 #include <cstdint>
@@ -22,27 +22,29 @@ class WindowGhosts {
   // Is disk i, by storage index, a ghost?
   virtual bool is_ghost(std::uint32_t i) const = 0;
 
-  // The part of the box whose disks the rank had as its own when ghosts were chosen: between two heights.
+  // The part of the box, between two heights, whose disks were the rank's own when ghosts were chosen.
   struct Heights {
     double low, high;
   };
   virtual Heights own_heights() const = 0;
 
-  // The band into which no disk comes in this window that is not here, unless strangers_come_near says so on a rank
-  // that has that disk. slice_flight: no disk goes further in a slice; length, the same on all ranks.
+  // The band into which no disk that this rank does not have comes in this window, unless strangers_come_near returns
+  // true on the rank that has that disk. slice_flight: the most that a disk flies in a slice; length, the same on all
+  // ranks.
   virtual KnownBand band(double slice_flight) = 0;
-  // At the start of a slice: may disks of this rank that a neighbour does not have come into that one's band in it?
+  // At the start of a slice: may disks of this rank that a neighbour does not have come into the neighbour's band in
+  // it?
   virtual bool strangers_come_near(const WindowState& window) const = 0;
 
-  // All of these are collective: each rank calls them at the same places.
+  // The following functions are collective: all ranks call them in the same order.
 
   // The smallest of all ranks' numbers.
   virtual double least_of_all(double here) = 0;
-  // How a slice has ended on all ranks: `done` only if it is that on each. events: of this rank's slice, becomes that
-  // of all.
+  // The outcome of a slice on all ranks: `done` only if it is `done` on each. events: of this rank's slice; becomes the
+  // sum over all ranks.
   virtual SliceOutcome agree(SliceOutcome here, Count& events) = 0;
-  // Gives these disks, all of them ghosts, their paths at the slice's end, from the ranks that own them: what happened
-  // to them in the slice is not known here.
+  // Gives these disks, all of them ghosts whose motion in the slice this rank does not know, their paths at the slice's
+  // end, from the ranks that own them.
   virtual void learn(WindowState& window, const std::vector<std::uint32_t>& unknown) = 0;
 };
 

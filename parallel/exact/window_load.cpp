@@ -1,4 +1,4 @@
-// The start of a window: what the disks begin it with.
+// The start of a window: the paths of the disks, and the times of their next events.
 #include <algorithm>
 
 #include "parallel/exact/window_run.hpp"
@@ -7,13 +7,13 @@ namespace carom {
 
 namespace {
 
-// At the start of a window all paths begin anew from rounded coordinates, so that events may come a little earlier than
+// At the start of a window all paths begin anew from rounded coordinates, so events may come a little earlier than
 // predicted. So disks are predicted again this share of a window earlier. That is enough for contacts with an approach
 // faster than WindowState::slow; slower ones that are close are predicted at the start of every window.
 constexpr double early_share = 1e-3;
-// Of a window that is cut shorter than this share of what it is meant to last, as if it lasted so long.
+// For this purpose a window counts as at least this share of the length that it is meant to have.
 constexpr double least_length_share = 1.0 / 32.0;
-// A disk is listed as far ahead of where it is as it flies in this many of its mean free times; after a collision, two
+// A disk is listed ahead of its position by its flight in this many of its mean free times; after a collision, two
 // fifths of its velocity remain on average. The fewest instructions a collision are at 0.5 to 1, at packing fractions
 // of 0.2 and 0.5.
 constexpr double lead_in_free_times = 0.7;
@@ -25,7 +25,7 @@ void WindowRun::load_paths(const WindowPlan& plan, const SpeedSummary& speeds, s
   const Disks& d = state_.disks;
   window_.begin(exact_rules(scene_, d, plan.start), d, plan, speeds.largest2, largest_radius_);
   window_.most_paths = most_paths(disks);
-  // Each event is a collision of two disks. While the rate is not known, a disk is listed where it is.
+  // Each event is a collision of two disks. As long as the rate is not known, a disk is listed at its position.
   lists_.set_lead_time(per_disk_ > 0.0 ? lead_in_free_times / (2.0 * per_disk_) : 0.0);
   if (slots_ != nullptr) {
     for (std::size_t i = 0; i < window_.spin.size(); ++i) window_.spin[i] = all_->disks.spin[(*slots_)[i]];
@@ -40,7 +40,7 @@ void WindowRun::load_paths(const WindowPlan& plan, const SpeedSummary& speeds, s
   });
 }
 
-// Disks [begin, end), which begin the window on new paths.
+// Loads disks [begin, end), which begin the window on new paths.
 void WindowRun::load_disks(std::size_t begin, std::size_t end, const WindowPlan& plan) {
   load_records(begin, end);
   load_times(begin, end, plan);
@@ -54,7 +54,7 @@ void WindowRun::load_disks(std::size_t begin, std::size_t end, const WindowPlan&
   if (!window_.burst.empty()) std::fill_n(&window_.burst[begin], end - begin, Burst{});
 }
 
-// Their records, and the times of their next events as they were predicted in the window before.
+// Loads their records, and the times of their next events as predicted in the window before.
 void WindowRun::load_records(std::size_t begin, std::size_t end) {
   const Disks& d = state_.disks;
   const Disks& paths = all_->disks;
@@ -78,7 +78,7 @@ void WindowRun::load_records(std::size_t begin, std::size_t end) {
   for (std::size_t i = begin; i < end; ++i) in.record[i].radius = d.radius[i];
 }
 
-// The events of which disks are not known from the window before: they are predicted at this one's start.
+// Disks whose events are not known from the window before get the time 0: they are predicted at this one's start.
 void WindowRun::load_times(std::size_t begin, std::size_t end, const WindowPlan& plan) {
   CalendarEntry* const entry = window_.entry.data();
   if (known_ != Known::lists_and_times) {
@@ -98,9 +98,9 @@ void WindowRun::load_times(std::size_t begin, std::size_t end, const WindowPlan&
   }
 }
 
-// The times that are kept of disks [begin, end) do not know of images beyond the nearest ones, nor of crossing events,
-// where a disk was slow enough to do without: in a longer window it may come to them, and is predicted anew. Slow
-// enough were those up to safe_before2 (v^2), unless they have become faster on the way.
+// The kept times of disks [begin, end) take no account of images beyond the nearest ones, or of crossing events, if the
+// disk was slow enough then. In a longer window it may reach these, and is predicted anew. Disks up to safe_before2
+// (v^2) were slow enough, unless they have become faster on the way.
 void WindowRun::predict_far_ones(std::size_t begin, std::size_t end, double safe_before2) {
   const bool get_faster = window_.rules.gravity.size > 0.0 || window_.rules.box.shear.acts();
   for (std::size_t i = begin; i < end; ++i) {
@@ -110,13 +110,14 @@ void WindowRun::predict_far_ones(std::size_t begin, std::size_t end, double safe
   }
 }
 
-// By how much kept times come earlier than they were predicted.
+// Kept times come earlier by this than predicted.
 double WindowRun::early_by() const {
   return early_share * std::max(length_, least_length_share * meant_);
 }
 
-// Bits (1 << side) of the sides whose contacts are predicted anew for a window that starts at this time: of a sine,
-// always, as how much rounding shifts a contact depends on how it is touched; of parabolas, where one begins.
+// Bits (1 << side) of the sides whose contacts are predicted anew for a window that starts at this time: of sides that
+// move as a sine always, since the shift of a contact by rounding depends on how it is touched; of sides that move in
+// parabolas if one begins.
 unsigned WindowRun::bits_of_new_sides(double start) const {
   unsigned bits = 0;
   for (const Side side : all_sides) {
@@ -126,7 +127,7 @@ unsigned WindowRun::bits_of_new_sides(double start) const {
   return bits;
 }
 
-// Which disks are near borders is not known yet when lists have just been built: all are taken to be.
+// When lists have just been built it is not known yet which disks are near borders: all are taken to be.
 double WindowRun::first_relist_time(std::size_t i, const WindowPlan& plan) const {
   return lists_.earliest_relist_time(static_cast<std::uint32_t>(i), window_.record[i].path, 0.0, plan.length,
                                      window_.rules.gravity, lists_.relist_distance_near_border());

@@ -11,7 +11,7 @@ namespace carom {
 
 namespace {
 
-// Disks a block.
+// Disks in a block.
 constexpr std::size_t pass_disks = 8192;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What is asked of all disks, or done to them, between two windows: on threads, each disk by itself.
+// Passes over all disks between two windows, on threads; each disk is treated by itself.
 #pragma once
 
 #include <vector>
@@ -19,12 +19,12 @@ SpeedSummary summarise_speeds(const Disks& disks, const Domain& box, const Execu
 // The deepest reach of any disk beyond a wall or into an obstacle (core/physics/wall_overlap.hpp); size 0 if none.
 Overlap deepest_wall_overlap(const Disks& disks, const Domain& box, const Executor& executor);
 
-// Draws the velocities of a Brownian interval. Where a sink takes disks that cross it unseen, gone has an entry for
-// each disk, 1 for those; else it is left empty.
+// Draws the velocities of a Brownian interval. If a sink removes disks that cross it without being seen, gone has an
+// entry for each disk, 1 for these; otherwise it is empty.
 void draw_brownian_interval(Disks& disks, const Scene& scene, const BrownianInterval& interval,
                             const Executor& executor, std::vector<unsigned char>& gone);
 
-// Counts those of the disks from begin to before end that it marked, by the sinks that they cross.
+// Counts the disks from begin to before end that it marked, by the sinks that they cross.
 void count_crossed(Disks& disks, const Scene& scene, const BrownianInterval& interval,
                    const std::vector<unsigned char>& gone, std::size_t begin, std::size_t end, SinkCounts& taken);
 

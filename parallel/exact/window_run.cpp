@@ -12,7 +12,8 @@ namespace carom {
 
 namespace {
 
-// Windows of less than half the longest's length. Of longer ones there are eight at most up to the horizon.
+// The number of windows of less than half the longest's length. Of longer ones there are at most eight up to the
+// horizon.
 constexpr int most_short_windows = most_windows_predicted - 8;
 
 }  // namespace
@@ -71,9 +72,9 @@ void WindowRun::build_lists(const WindowPlan& plan, const ListLayout& layout, co
   const PhaseTimer timer(times_, "list");
   // Sorting takes about as much memory.
   if (std::max(state_.disks.size(), layout.disks_of_box) > disks_of_much_memory) scheduler_.release_calendars();
-  // Times that are known stay valid: two disks that did not list each other cannot touch before one of them reaches its
-  // next event, which is at the latest that of being relisted. In a sheared box that holds until the lists are
-  // strained, and events are predicted further ahead.
+  // Known times stay valid: two disks that did not list each other cannot touch before one of them reaches its next
+  // event, which is relisting at the latest. In a sheared box that is true until the lists are strained, and events are
+  // predicted further ahead than that.
   known_until_ = lists_.strained_at();
   lists_.follow_flow(box_at(scene_.box, plan.start), plan.start, plan.length);
   const bool timed = known_ == Known::lists_and_times;
@@ -131,7 +132,7 @@ void WindowRun::note_listing(std::uint32_t i) {
     window_.part_is_known = false;
 }
 
-// Of a part whose lists have just been built.
+// For a part whose lists have just been built.
 void WindowRun::mark_disks() {
   for (DiskRecord& record : window_.record) {
     record.progress = DiskProgress();
@@ -144,7 +145,7 @@ void WindowRun::mark_disks() {
   }
 }
 
-// order: for each disk, which one it was before.
+// order: the former index of each disk.
 void WindowRun::sort_times(const std::vector<std::uint32_t>& order, std::vector<double>& scratch) {
   const auto for_blocks = [&](const auto& move) {
     executor_.for_ranges(order.size(), pass_block, [&](std::size_t, std::size_t begin, std::size_t end) {
@@ -167,7 +168,7 @@ SliceOutcome WindowRun::run(const WindowPlan& plan, const SpeedSummary& speeds, 
   return SliceOutcome::done;
 }
 
-// From now on lists and times are on their way to the window's end: if it fails, they are not valid.
+// From now on lists and times are changed as the window runs: if it fails, they are not valid.
 void WindowRun::begin(const WindowPlan& plan, const SpeedSummary& speeds, std::size_t disks, double margin) {
   if (scene_.box.shear.acts()) lists_.carry_flow(box_at(scene_.box, plan.start), plan.start);
   if (scene_.box.inner_walls_move && !rebuilt_) lists_.see_where_walls_move(state_.disks, executor_);

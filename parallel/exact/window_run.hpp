@@ -1,5 +1,5 @@
-// The windows of the exact engine, one after the other: the paths of the disks in each, and what lasts from one to the
-// next, neighbour lists and the times of next events.
+// The windows of the exact engine, one after the other: the paths of the disks in each, and what lasts from one window
+// to the next: neighbour lists and the times of next events.
 #pragma once
 
 #include <algorithm>
@@ -23,25 +23,25 @@
 
 namespace carom {
 
-// What the next window can take over from the one before.
+// What the next window can take over from the last one.
 enum class Known : std::uint8_t {
   nothing,
   lists,            // neighbour lists and storage order
-  lists_and_times,  // and the next events' times, on paths that go on
+  lists_and_times,  // also the times of next events, on paths that go on
 };
 
-// The lists are rebuilt, and the disks sorted, when disks have been relisted so many times on average: by then
+// The lists are rebuilt, and the disks sorted, when disks have been relisted this many times on average: by then
 // neighbours in space are no longer neighbours in storage.
 inline constexpr double relistings_a_disk = 8.0;
-// They are also rebuilt where one queue has more than this times as many disks as skin and cells were chosen for, or as
-// many times fewer.
+// They are also rebuilt if one queue has more disks than this times the number for which skin and cells were chosen, or
+// fewer than that number over this.
 inline constexpr double most_growth = 1.25;
 
-// With regions: no disk may become faster in a window than this factor times the fastest one at its start. A window in
-// which one does is run again with a larger factor, and at last without regions. With 1.15, 1.25 and 1.35, 21, 2 and 0
-// of 100 windows of 50000 disks were in vain; a larger factor makes slices shorter.
+// With regions: the largest speed of any disk in a window, over that of the fastest one at its start. If a disk becomes
+// faster, the window is run again with a larger factor, and at last without regions. With 1.15, 1.25 and 1.35, 21, 2
+// and 0 of 100 windows of 50000 disks were in vain; a larger factor makes slices shorter.
 inline constexpr double speed_margin = 1.35;
-inline constexpr double margin_of_retry = 2.5;  // over that of the try before
+inline constexpr double margin_of_retry = 2.5;  // factor between the margins of two successive runs
 inline constexpr int most_retries = 4;
 
 // Throws the PhysicsError of a window that was void on each of most_retries + 1 runs.
@@ -52,67 +52,68 @@ class WindowRun {
   // All arguments outlive it. The state may change between windows.
   WindowRun(const Scene& scene, State& state, const Executor& executor, PhaseTimes& times);
 
-  // On one of several ranks; largest_radius: of all disks. Outlives it.
+  // For one of several ranks. largest_radius: of the disks of all ranks. The ghosts outlive the WindowRun.
   void set_ghosts(WindowGhosts* ghosts, double largest_radius);
 
   Known known() const { return known_; }
-  // Nothing beyond this is valid any more.
+  // From now on nothing beyond this is valid.
   void forget(Known left) { known_ = std::min(known_, left); }
 
-  // Nothing is valid any more, and all will be built anew. Where there are many disks, the memory that it takes is
-  // given back now.
+  // From now on nothing is valid, and all will be built anew. If there are many disks, the memory for it is freed now.
   void forget_lists();
 
-  // One queue, between windows: can disks be taken out of what is known, and added if no radius is larger than those
-  // that are listed?
+  // Between windows: can disks be removed without new lists, and added if none is larger than those listed? Only with
+  // one queue.
   bool takes_changes() const;
-  // The disks from this one on are new, at the end of the columns; they are listed, and predicted at the start of the
+  // Disks from this index on, at the end of the columns, are new: they are listed, and predicted at the start of the
   // next window.
   void append_disks(std::size_t first);
-  // Disk i of the last window is to go, and the last one takes its index. disks: the columns, which have it still.
+  // Disk i of the last window is removed, and the last one takes its index. disks: the columns, which still hold it.
   void remove_disk(std::size_t i, const Disks& disks);
 
-  // Are the lists to be built anew for this window?
+  // Must the lists be built anew for this window?
   bool lists_due(const WindowPlan& plan) const;
-  // Relistings of a disk since the lists were built, on average.
+  // The mean number of relistings of a disk since the lists were built.
   double relistings() const;
-  // Sorts the disks and lists them. Times that were known stay so, those up to which the lists before were valid.
+  // Sorts the disks and lists them. Known times stay known, up to the time to which the former lists were valid.
   // sorted: as in NeighbourLists::build.
   void build_lists(const WindowPlan& plan, const ListLayout& layout, const NeighbourLists::Sorted& sorted = {});
 
-  // The disks are those of a thread's part and of its halo; after build_lists. own: the indices of its own, all of them
-  // at the start of the next window. largest_radius: of all disks of the box. all: the state of all, from which paths
-  // are loaded, and to which those of own disks are stored; disk i is at slots[i] of its columns. All outlive it.
+  // After build_lists: the disks are those of a thread's part and its halo. own: the indices of its own disks, which
+  // are complete at the start of the next window. largest_radius: of all disks of the box. all: the state of all disks,
+  // from which paths are loaded, and to which those of own disks are stored; disk i is at slots[i] of its columns. All
+  // of these outlive the WindowRun.
   void set_part(const PartEnds& ends, const std::vector<std::uint32_t>& own, double largest_radius, State& all,
                 const std::vector<std::uint32_t>& slots);
   void set_own(std::size_t own) { own_ = own; }
-  // Of a part, between windows: its last disk is new in the state and the slots; at: where it is.
+  // For a part, between windows: the last disk of the state and of the slots is new. at: its position.
   void append_last_disk(Vec2 at);
-  // Of a part, between windows: asks whether own disk i may come beyond an end. If it may and is no ghost of the part
-  // there, the next slice ends with too_fast.
+  // For a part, between windows: checks whether own disk i may come beyond an end. If it may and is not a ghost of the
+  // part there, the next slice ends with too_fast.
   void note_listing(std::uint32_t i);
-  // Of a part, at a slice's end: these ghosts have got other paths. They are relisted if need be, and their events are
+  // For a part, at a slice's end: these ghosts have new paths. They are relisted if necessary, and their events are
   // predicted anew.
   void replace_paths(const std::vector<std::uint32_t>& disks) { scheduler_.replace_paths(disks); }
 
-  // Runs the window; speeds: of all disks of the run at its start, as many as `disks`. margin: over the largest speed.
-  // Unless the outcome is `done`, nothing counts. Precondition: lists are known.
+  // Runs the window. speeds: of all disks of the run at its start. disks: their number. margin: the largest speed
+  // allowed, over the largest at the start. Unless the outcome is `done`, the window has no effect. Precondition: lists
+  // are known.
   SliceOutcome run(const WindowPlan& plan, const SpeedSummary& speeds, std::size_t disks, double margin);
 
-  // The same in steps, for a part: what comes before the first slice, and each slice, from `start` to `end` (`never`:
-  // the window's end). Then finish_slices.
+  // The same in steps, for a part: begin does what comes before the first slice, and run_slice runs a slice from
+  // `start` to `end` (`never`: the window's end). Then finish_slices.
   void begin(const WindowPlan& plan, const SpeedSummary& speeds, std::size_t disks, double margin);
   SliceOutcome run_slice(const WindowPlan& plan, std::size_t disks, double start, double end);
   void finish_slices() { known_ = known_at_end_; }
 
-  // After a window that was done: the disks are where it ends, and what they go on with is known. Where disks left
-  // through sinks, gone has an entry for each disk, 1 for those, which stay in the columns; else it is empty. The sums
-  // are those of the window.
+  // After a window that was done: moves the disks to its end, and keeps what is known for the next one. If disks left
+  // through sinks, gone has an entry for each disk, 1 for these, which stay in the columns; otherwise it is empty.
+  // Returns the sums of the window.
   ImpactTally store_paths(const WindowPlan& plan, std::vector<unsigned char>& gone);
 
   void release_memory();
 
-  // Of the last window.
+  // The length of the last window.
   double length() const { return length_; }
   double largest_radius() const { return largest_radius_; }
   WindowState& window() { return window_; }
@@ -140,13 +141,13 @@ class WindowRun {
   void store_straight(std::size_t begin, std::size_t end, double length);
   void set_speed_bound(const WindowPlan& plan, double margin);
 
-  // Disks a block in passes over all disks.
+  // Disks in a block, in passes over all disks.
   static constexpr std::size_t pass_block = 8192;
 
   const Scene& scene_;
   State& state_;
-  State* all_;  // has the paths, last contacts and thermal hits of all disks: it is state_, except for a part
-  const std::vector<std::uint32_t>* slots_ = nullptr;  // of a part
+  State* all_;  // the state with the paths, last contacts and thermal hits of all disks: state_, except for a part
+  const std::vector<std::uint32_t>* slots_ = nullptr;  // for a part
   const Executor& executor_;
   PhaseTimes& times_;
   WindowState window_;
@@ -154,19 +155,19 @@ class WindowRun {
   SliceScheduler scheduler_;
   const PathKernels path_kernels_ = choose_path_kernels();
   WindowGhosts* ghosts_ = nullptr;
-  double least_largest_radius_ = 0.0;  // of other ranks' or parts' disks
+  double least_largest_radius_ = 0.0;  // of the disks of other ranks or parts
   double largest_radius_ = 0.0;
   Known known_ = Known::nothing;
-  bool rebuilt_ = false;  // the lists, for the coming window
-  // Then, if times stayed: up to which time of the run no other event of a disk comes before the one that is known.
+  bool rebuilt_ = false;  // have lists been built for the coming window?
+  // If rebuilt_ and times are known: the time of the run up to which no disk has an event before its known one.
   double known_until_ = never;
   double length_ = 0.0;                                    // of the last window
-  double meant_ = 0.0;                                     // likewise; WindowState::meant
-  int short_windows_ = 0;                                  // since all disks were predicted anew
-  double longest_ = 0.0;                                   // window meant since then; time
-  double per_disk_ = 0.0;                                  // events a disk and time, of the last slice
-  const std::vector<std::uint32_t>* own_disks_ = nullptr;  // of a part, when its lists have been built
-  std::size_t own_ = 0;                                    // of a part: disks that are not of its halo
+  double meant_ = 0.0;                                     // WindowState::meant of the last window
+  int short_windows_ = 0;                                  // number since all disks were predicted anew
+  double longest_ = 0.0;                                   // longest length meant since then; time
+  double per_disk_ = 0.0;                                  // events per disk and time in the last slice
+  const std::vector<std::uint32_t>* own_disks_ = nullptr;  // for a part whose lists have just been built
+  std::size_t own_ = 0;                                    // for a part: number of its own disks
   Known known_at_end_ = Known::nothing;
   std::size_t disks_when_built_ = 0;
 };

@@ -9,20 +9,20 @@ namespace carom {
 
 namespace {
 
-// Events are predicted this many windows ahead, as long as they are meant to be; a disk that has none by then is
-// predicted again.
+// Events are predicted ahead for this many windows of the length that they are meant to have; a disk without an event
+// by then is predicted again.
 constexpr double windows_ahead = 4.0;
-// Of disks at rest a window may be meant to last for ever: it counts as no longer than so many times what it lasts.
+// Among disks at rest a window may be meant to last for ever: it counts as at most this many times its real length.
 constexpr double most_shortened = 0x1p20;
-// Disks that approach at more than `slow` meet at a time that rounding shifts by less than this part of a window as
-// long as it is meant to be.
+// Rounding shifts the time at which disks meet that approach faster than `slow` by less than 1 / rounding_ratio of the
+// length that the window is meant to have.
 constexpr double rounding_ratio = 1e5;
-// Two paths have two coordinates each, which are rounded a few times in each of the windows that they are predicted
-// for.
+// Two paths have two coordinates each, which are rounded a few times in each of the windows for which they are
+// predicted.
 constexpr double blur_in_roundings = 16.0 * most_windows_predicted;
 
-// Reserves room for a few more: where there are ghosts, the number of disks goes up and down a little. Pages that
-// nothing is written to take no memory.
+// Reserves room for a few more disks: with ghosts, their number varies a little. Pages that are never written take no
+// memory.
 template <class T>
 void resize_column(std::vector<T>& column, std::size_t n) {
   if (column.capacity() < n) resize_in_huge_pages(column, n, T{}, n + n / 32);
@@ -44,7 +44,7 @@ void WindowState::begin(const ExactRules& window_rules, const Disks& all, const 
   depth_beyond_borders.store(0.0, std::memory_order_relaxed);
   set_tolerances(plan.start);
   resize_column(entry, all.size() + std::max<std::size_t>(regions, 1) * entries_apart);
-  // Its contents are written anew: it is freed before it grows, so that there are never two of this column, the
+  // The records are written anew, so the column is freed before it grows: there are never two copies of it, the
   // largest.
   if (record.capacity() < all.size()) std::vector<DiskRecord>().swap(record);
   resize_column(record, all.size());
@@ -52,7 +52,7 @@ void WindowState::begin(const ExactRules& window_rules, const Disks& all, const 
   spin = all.spin;
 }
 
-// Largest speed of what has its place from the time of the run: sides that move, and the images above a sheared box.
+// The largest speed of boundaries that move with the time of the run: sides, and the images above a sheared box.
 double WindowState::fastest_boundary() const {
   double speed = std::abs(rules.box.shear.jump);
   for (const SideMotion& motion : rules.box.motions) speed = std::max(speed, motion.largest_speed());
@@ -63,8 +63,8 @@ double WindowState::fastest_boundary() const {
 void WindowState::set_tolerances(double start) {
   const double side = std::max(rules.box.width, rules.box.height);
   slack = 1e-9 * 2.0 * largest_radius + 1e-14 * side;
-  // Coordinates, distances that velocities make in the windows ahead, and those that sides and images have gone by then
-  // are rounded to this.
+  // The rounding of coordinates, of distances flown in the windows ahead, and of distances moved by sides and images up
+  // to then.
   const double fastest = std::sqrt(fastest2) + rules.gravity.size * length;
   const double rounding = 0x1p-51 * (side + fastest * horizon + fastest_boundary() * (start + horizon));
   close = 4.0 * rounding_ratio * rounding;

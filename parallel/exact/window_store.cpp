@@ -1,4 +1,4 @@
-// The end of a window: where it leaves the disks.
+// The end of a window: stores the positions and velocities of the disks then.
 #include <cmath>
 
 #include "core/physics/exact_path.hpp"
@@ -7,7 +7,7 @@
 
 namespace carom {
 
-// Disks [begin, end), where neither gravity nor a shear acts: what store_paths does there.
+// Stores disks [begin, end) if neither gravity nor a shear acts.
 void WindowRun::store_straight(std::size_t begin, std::size_t end, double length) {
   Disks& d = state_.disks;
   const Domain& box = window_.rules.box;
@@ -70,7 +70,7 @@ ImpactTally WindowRun::end_window(const WindowPlan& plan, const std::vector<Impa
   return tally;
 }
 
-// Own disks alone, to the columns of all.
+// Stores only own disks, in the columns of all.
 ImpactTally WindowRun::store_part(const WindowPlan& plan) {
   Disks& to = all_->disks;
   const std::uint32_t* const slot = slots_->data();

@@ -1,4 +1,4 @@
-// What one thread works on in a window of the exact engine, and what it has found.
+// The data of one thread in a window of the exact engine, and its results.
 #pragma once
 
 #include <cstdint>
@@ -15,12 +15,13 @@ namespace carom {
 
 // A segment of a disk's path in the last window; frames and contacts are read from these.
 struct LoggedSegment {
-  // In place of a partner: it met no other disk; it left through a sink.
+  // Values of partner for a segment that does not begin with a contact of disks: no_disk; gone, the disk left through a
+  // sink.
   static constexpr std::uint32_t no_disk = 0xffffffffU;
   static constexpr std::uint32_t gone = 0xfffffffeU;
 
   std::uint32_t disk;
-  std::uint32_t partner;  // the disk that it met at path.start, or one of these
+  std::uint32_t partner;  // the disk met at path.start, or one of these
   PathSegment path;
 
   bool with_disk() const { return partner < gone; }
@@ -32,15 +33,15 @@ struct BlockedDisk {
   double safe_time;
 };
 
-// A moment at which the disk's safe time is to be computed again.
+// The time at which a disk's safe time must be computed again.
 struct SafeTimeDue {
   double time;
   std::uint32_t disk;
 };
 
-// Members are about the window unless they say otherwise.
+// Members refer to the window unless stated otherwise.
 struct Worker {
-  ListRegion region;                    // what it may read and write
+  ListRegion region;                    // memory that it may read and write
   EventCalendar calendar;               // of a single queue, or of a region
   std::size_t number = 0;               // of the region
   std::vector<SafeTimeDue> safe_times;  // of a region: a heap, the first on top
@@ -50,14 +51,14 @@ struct Worker {
   bool any_gone = false;
   double fastest2 = 0.0;              // largest v^2
   Count segments = 0;                 // begun
-  std::optional<EventMark> collapse;  // the first one, except in a region
-  // Each of these voids the window. too_fast: a disk was faster than the speed bound, or one whose motion was taken as
-  // known had to collide. crowded: there are too many events; the event at which that was seen, which is the first one
-  // except in a region. given_up: Engine::set_watch said to stop.
+  std::optional<EventMark> collapse;  // the first one, except with regions
+  // Each of these makes the window void. too_fast: a disk was faster than the speed bound, or one whose motion was
+  // taken as known had to collide. crowded: there are too many events; this is the event at which that was noticed, the
+  // first such event except with regions. given_up: Engine::set_watch said to stop.
   bool too_fast = false;
   std::optional<EventMark> crowded;
   bool given_up = false;
-  bool ended = false;                      // one of these, or a collapse outside a region: process no further event
+  bool ended = false;                      // one of these, or a collapse without regions: process no further event
   Count until_poll = 0;                    // events before go_on is asked again
   Count relisted = 0;                      // disks, in the slice
   std::vector<BlockedDisk> blocked;        // in the slice
