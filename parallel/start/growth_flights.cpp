@@ -10,8 +10,8 @@ namespace carom {
 
 namespace {
 
-// Lists that allow for more growth than this many times what is left are made anew: they leave disks less of the skin.
-// Not where what they allow for is less than this share of the largest radius, so that it hardly matters.
+// Lists that allow for more growth than this factor times what is left are made anew, since they leave disks less of
+// the skin; but not if they allow for less than `hardly_any` times the largest radius, so that it hardly matters.
 constexpr double most_left_over = 2.0;
 constexpr double hardly_any = 0.02;
 
@@ -51,8 +51,8 @@ class GrowthFlights {
   Threads threads_;
   std::unique_ptr<ExactFlights> engine_;
   double most_lack_ = 0.0;  // of the radius of any disk, after the last step; length
-  double largest_ = 0.0;    // radius
-  bool in_order_ = false;   // the disks are stored as they were at the last flight's end
+  double largest_ = 0.0;    // largest radius
+  bool in_order_ = false;   // are the disks stored as they were at the last flight's end?
 };
 
 }  // namespace

@@ -7,9 +7,9 @@
 
 namespace carom {
 
-// The tools of a growth whose steps and flights use these threads, which the executor has as well. One engine makes all
-// flights, so that its neighbour lists last from one to the next, and tell each step which disks are near. The tools
-// are for one growth; executor must outlive them.
+// The tools of a growth whose steps and flights use these threads, which are also the executor's. One engine makes all
+// flights, so its neighbour lists last from one flight to the next, and give each step the disks near each other. The
+// tools are for one growth; executor must outlive them.
 GrowthTools parallel_growth(const Executor& executor, const Threads& threads);
 
 }  // namespace carom

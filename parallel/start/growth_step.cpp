@@ -13,25 +13,25 @@ namespace carom {
 
 namespace {
 
-constexpr std::size_t disks_of_task = 2048;  // enough that starting a task is nothing beside them
+constexpr std::size_t disks_of_task = 2048;  // so many that starting a task costs nothing beside them
 constexpr std::size_t disks_at_once = 256;   // of sums
 
-// What a step keeps beside the disks, in their order in storage; lengths.
+// Data of a step beside the disks, in their storage order; lengths.
 struct GrowthColumns {
-  std::vector<double> before;  // radius
-  std::vector<double> after;   // likewise
+  std::vector<double> before;  // radii before the step
+  std::vector<double> after;   // radii after the step
   std::vector<double> lack;    // target - radius before
 };
 
-// Every disk has its reach in place of its radius, which columns has.
+// The column of radii holds the reach of every disk; the radii are in columns.
 struct GrowingDisks {
   const Disks& disks;
   const Domain& box;
   const GrowthColumns& columns;
-  bool lack_something;  // any of them
+  bool lack_something;  // does any disk?
 };
 
-// The reach takes the place of the radius.
+// Replaces the radii by the reach.
 void set_reach(const Executor& executor, Disks& d, const std::vector<double>& target) {
   executor.for_ranges(d.size(), disks_of_task, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) d.radius[i] = growth_reach(d.radius[i], target[d.id[i]]);
@@ -52,8 +52,8 @@ bool set_lack(const Executor& executor, const Disks& d, const std::vector<double
   return std::any_of(most.begin(), most.end(), [](double lack) { return lack > 0.0; });
 }
 
-// The radius that all gaps around disk i allow. visit(look) calls look(j) for all disks that may be within reach, for i
-// too; each pair is looked at from both of its ends, so that no thread waits for another.
+// The radius of disk i that all gaps around it allow. visit(look) calls look(j) for all disks that may be within reach,
+// and for i itself; each pair is treated from both of its ends, so that no thread waits for another.
 template <class Visit>
 double grown_radius(const GrowingDisks& all, double target, std::size_t i, std::atomic<bool>& overlaps, Visit&& visit) {
   const Disks& d = all.disks;
@@ -79,7 +79,7 @@ double grown_radius(const GrowingDisks& all, double target, std::size_t i, std::
   return after;
 }
 
-// Gives the disks the radii after the step, and sums them up.
+// Gives the disks their radii after the step, and sums them up.
 GrowthTally take_radii(const Executor& executor, Disks& d, const std::vector<double>& target, bool overlap,
                        GrowthColumns& columns) {
   std::vector<GrowthTally> tally(std::max<std::size_t>(executor.blocks(d.size(), disks_of_task), 1));

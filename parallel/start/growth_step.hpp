@@ -1,5 +1,5 @@
-// One step of a growth on all cores: what core's grow_step gives, bit for bit, on any number of threads. But overlap is
-// looked for by disks that lack something alone, as long as any does.
+// One step of a growth on all cores: the result of core's grow_step, bit for bit, on any number of threads; except
+// that, as long as any disk lacks something, only such disks check for overlap.
 #pragma once
 
 #include <cstddef>
@@ -13,14 +13,14 @@
 
 namespace carom {
 
-// Finds the disks near each by cells; the disks end up in the order of these.
+// Finds the disks near each other by cells; afterwards the disks are in the order of these.
 GrowthTally grow_by_cells(const Executor& executor, Disks& disks, const Domain& box, const std::vector<double>& target);
 
-// Calls visit(disk, near) for every disk, on all threads. near: disks of which all are that come within the sum of the
+// Calls visit(disk, near) for every disk, on all threads. near: disks that include all that come within the sum of the
 // two growth_reach.
 using VisitNear = std::function<void(const std::function<void(std::size_t, std::span<const std::uint32_t>)>& visit)>;
 
-// The same where neighbour lists tell which disks are near each; the disks stay in their order.
+// The same with neighbour lists for the disks near each other; the disks stay in their order.
 GrowthTally grow_by_lists(const Executor& executor, Disks& disks, const Domain& box, const std::vector<double>& target,
                           const VisitNear& visit_lists);
 
