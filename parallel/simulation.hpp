@@ -1,4 +1,4 @@
-// The engine that people run: every method, in parallel, with the bits of core's reference.
+// The engine that programs run: every method, in parallel, with the bits of core's reference.
 #pragma once
 
 #include <memory>
@@ -8,7 +8,7 @@
 
 namespace carom {
 
-// Precondition: threads.count >= 1, initial is a state of scene.
+// Preconditions: threads.count >= 1, and `initial` is a state of the scene.
 std::unique_ptr<Engine> make_parallel_engine(const Scene& scene, State initial, const Threads& threads);
 
 }  // namespace carom

@@ -7,9 +7,9 @@ namespace carom {
 
 namespace {
 
-// A disk that is in the message already.
+// Mark of a disk that is already in the message.
 constexpr std::uint8_t is_sent = 4;
-// A ghost's contact count, before those with the rank's own disks are counted.
+// The contact count that a ghost gets before its contacts with the rank's own disks are counted.
 constexpr std::uint16_t ghost_contacts = 1;
 
 bool crosses(const GhostDisks& ghosts, const ContactEvent& e) {
@@ -31,7 +31,7 @@ void BorderContacts::share(State& state, DiskColumns columns, GhostDisks& ghosts
   alone_.clear();
   sent_.clear();
   mark_clusters(ghosts, lists);
-  // Of two ranks, each sees the other beyond both borders.
+  // With two ranks, each is the other's neighbour at both borders.
   const bool to_all = ranks_.any(any_spans(lists)) || ranks_.count() == 2;
   if (to_all) {
     const std::vector<Bytes> parts = ranks_.gather(parts_at(both_borders, state, ghosts, lists));
@@ -49,7 +49,7 @@ void BorderContacts::share(State& state, DiskColumns columns, GhostDisks& ghosts
   merge(ghosts, executor, lists);
 }
 
-// Clusters are small: a few passes over the contacts reach all of each.
+// Clusters are small, so a few passes over the contacts mark all of each.
 void BorderContacts::mark_clusters(const GhostDisks& ghosts, const ContactLists& lists) {
   if (mark_.size() < ghosts.own()) mark_.resize(ghosts.own(), no_border);
   for (const ContactEvent& e : lists.crowded) {
@@ -72,7 +72,7 @@ bool BorderContacts::any_spans(const ContactLists& lists) const {
   });
 }
 
-// Is the contact one of a cluster at one of these borders?
+// Is the contact in a cluster at one of these borders?
 bool BorderContacts::is_at(std::uint8_t borders, const GhostDisks& ghosts, const ContactEvent& e) const {
   return (mark_[own_disk(ghosts, e)] & borders) != 0;
 }
@@ -128,7 +128,7 @@ void BorderContacts::receive(const Bytes& message, Border from, State& state, Di
   for (std::size_t k = 0; k < disks.size(); ++k) take_thermal_hits(state, disks[k].id, hits.at(k));
 }
 
-// One entry for each contact, with what both ranks have said of it.
+// Leaves one entry for each contact, with the data of both ranks.
 void BorderContacts::join_sent() {
   std::sort(sent_.begin(), sent_.end(), ids_order);
   std::size_t kept = 0;
@@ -144,7 +144,7 @@ void BorderContacts::join_sent() {
   sent_.resize(kept);
 }
 
-// Is the contact, across a border, the only one of both disks? Then it is taken.
+// Is the contact across a border, and the only one of both disks? Then it is moved to alone().
 bool BorderContacts::take_alone(const GhostDisks& ghosts, const ContactLists& lists, const ContactEvent& e) {
   if (!crosses(ghosts, e)) return false;
   const auto at = std::lower_bound(sent_.begin(), sent_.end(), e, ids_order);
@@ -164,7 +164,7 @@ void BorderContacts::merge(const GhostDisks& ghosts, const Executor& executor, C
   for (const SentContact& s : sent_) {
     const auto i1 = ghosts.find(s.id1);
     const auto i2 = is_wall(s.id2) ? std::optional<std::uint32_t>(0) : ghosts.find(s.id2);
-    if (!i1 || !i2) continue;  // with a disk of this rank: known
+    if (!i1 || !i2) continue;  // one with a disk of this rank, known already
     const bool is_alone_there = !is_wall(s.id2) && s.contacts1 == 1 && s.contacts2 == 1;
     if (!is_alone_there) lists.crowded.push_back({s.ago, s.id1, s.id2, *i1, *i2});
   }

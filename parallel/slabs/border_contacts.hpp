@@ -1,4 +1,4 @@
-// Contacts of a step that hang together with one across a border: ranks tell each other of them, and each resolves all
+// Contacts of a step that are connected with one across a border: ranks tell each other of them, and each resolves all
 // that concern it, in the canonical order, with the same bits.
 #pragma once
 
@@ -14,23 +14,23 @@
 
 namespace carom {
 
-// A cluster is a set of contacts in which one leads to the next through a disk that both have. Clusters commute, so a
-// rank needs those that have one of its own disks, as a whole. Neighbours send each other their parts of the clusters
-// at their border. Where a cluster reaches from one border of a slab to the other, which takes long rows of disks in
-// contact at once, every rank gets all parts for that step.
+// A cluster is a set of contacts connected through disks that they share. Clusters commute, so a rank needs only those
+// with one of its own disks, but needs these completely. Neighbours send each other their parts of the clusters at
+// their border. If a cluster reaches from one border of a slab to the other, which takes long rows of disks in contact
+// at the same time, every rank gets all parts in that step.
 class BorderContacts {
  public:
   explicit BorderContacts(Ranks& ranks) : ranks_(ranks) {}
 
-  // lists.crowded: the contacts that are not alone here, those with ghosts among them, in canonical order of time.
-  // Afterwards it has all contacts of their clusters, and state and ghosts have the disks of those; contacts across a
-  // border that turn out to be alone are in alone() instead. Of all ghosts the contact count is positive.
+  // lists.crowded: the contacts that are not alone on this rank, including those with ghosts, in canonical order of
+  // time. Afterwards it has all contacts of their clusters, and state and ghosts have the disks of these; contacts
+  // across a border that prove to be alone are in alone() instead. The contact counts of all ghosts are positive.
   void share(State& state, DiskColumns columns, GhostDisks& ghosts, const Executor& executor, ContactLists& lists);
 
   const std::vector<ContactEvent>& alone() const { return alone_; }
 
  private:
-  // A contact as it is sent. contacts: of the disk, where the sender has it; else 0.
+  // A contact in a message. contacts: of the disk, if the sender has it; otherwise 0.
   struct SentContact {
     double ago;
     DiskId id1, id2;
@@ -49,8 +49,9 @@ class BorderContacts {
   bool take_alone(const GhostDisks& ghosts, const ContactLists& lists, const ContactEvent& e);
 
   Ranks& ranks_;
-  std::vector<std::uint8_t> mark_;  // of each disk in a contact: at which borders its cluster is; all 0 between steps
-  std::vector<SentContact> sent_;   // by others
+  std::vector<std::uint8_t>
+      mark_;                       // of each disk in a contact: the borders that its cluster is at; all 0 between steps
+  std::vector<SentContact> sent_;  // by other ranks
   std::vector<ContactEvent> alone_;
   // Scratch.
   std::vector<SentContact> part_;

@@ -11,10 +11,10 @@ namespace carom {
 
 namespace {
 
-// What rounding may make of a thickness, generously; share of the box's height.
+// A generous bound for the rounding of a thickness; share of the box's height.
 constexpr double rounding = 1e-9;
 
-// A disk may be near both borders, and two ranks see each other across both.
+// A disk may be near both borders, and two ranks are neighbours at both: duplicates are removed.
 Disks each_once(std::vector<Disk> list) {
   std::sort(list.begin(), list.end(), [](const Disk& a, const Disk& b) { return a.id < b.id; });
   list.erase(std::unique(list.begin(), list.end(), [](const Disk& a, const Disk& b) { return a.id == b.id; }),

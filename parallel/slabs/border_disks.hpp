@@ -1,4 +1,4 @@
-// The disks near the borders of a slab, as they are when nothing moves: for what looks at pairs between two steps.
+// The disks near the borders of a slab at a moment between two steps, for the analysis of pairs.
 #pragma once
 
 #include "core/disks/disks.hpp"
@@ -8,21 +8,21 @@
 
 namespace carom {
 
-// How far a disk of any rank has left its slab; length. Collective.
+// The largest distance of any rank's disk from its slab; length. Collective.
 double excursion_over_ranks(Ranks& ranks, const Slab& slab, const Domain& box, const Disks& own);
 
-// Each disk once, where it is in the box, with a radius and a mass of its own.
+// Each disk once, at its place in the box, with its own radius and mass.
 struct BorderDisks {
-  Disks own, others;  // this rank's, and those of its neighbours
+  Disks own, others;  // of this rank, and of its neighbours
 };
 
-// All pairs of a rank and a neighbour whose centres are no further from each other than reach (length) plus the smaller
-// of their radii are among own and others, on both ranks, but for those that meet across the slab of a third rank.
-// excursion: excursion_over_ranks. Collective.
+// All pairs of a rank and a neighbour whose centres are no further apart than reach (length) plus the smaller of their
+// radii are among own and others, on both ranks, except for pairs that meet across the slab of a third rank. excursion:
+// excursion_over_ranks. Collective.
 BorderDisks disks_at_borders(Ranks& ranks, const Slab& slab, const Domain& box, const Disks& own, double reach,
                              double excursion);
 
-// Are all disks within reach (length) of a rank's own ones of this rank or a neighbour? Where there are more than two.
+// With more than two ranks: do all disks within reach (length) of a rank's own disks belong to it or to a neighbour?
 bool is_within_neighbours(const SlabCut& cut, const Domain& box, double reach, double excursion);
 
 // All disks of both, those of the first one first.

@@ -8,11 +8,11 @@ namespace carom {
 
 namespace {
 
-// Directions in which a list is run.
+// The directions in which a list is processed.
 constexpr unsigned char run_forward = 1, run_back = 2;
 
-// What lies inside a slab goes in layouts of patches in those rounds that have twice as many contacts; in others there
-// is too little for threads to share.
+// Contacts inside a slab are put into layouts of patches in rounds that have twice this number of contacts; in others
+// there are too few for several threads.
 constexpr std::size_t least_patch_contacts = 4096;
 
 std::vector<std::uint32_t> in_id_order(std::vector<std::uint32_t> indices, const Disks& disks) {
@@ -25,7 +25,7 @@ std::vector<std::uint32_t> in_id_order(std::vector<std::uint32_t> indices, const
 }  // namespace
 
 BorderRounds::BorderRounds(Ranks& ranks) : ranks_(ranks), peers_(ranks.count() == 2 ? 1 : 2) {
-  // Of two ranks, each is the other's only peer.
+  // With two ranks, each is the other's only peer.
   peers_.back().counts = ranks.above() < ranks.rank();
   peers_.front().counts = ranks.below() < ranks.rank();
 }
@@ -59,9 +59,8 @@ std::array<Bytes, BorderRounds::most_peers> BorderRounds::exchange(const std::ar
   return {std::move(below), std::move(above)};
 }
 
-// The first round in which a contact of the disk may be, one inside (none) or across the border of a peer. What lies
-// inside is before what lies across borders in the same round; and what one peer has changed another learns in the
-// next.
+// The first round in which the disk's next contact may be, inside (none) or across the border of a peer. Within a
+// round, contacts inside come before those across borders; what one peer has changed, another learns in the next round.
 std::uint32_t BorderRounds::earliest(std::uint32_t disk, int peer) const {
   const Last& last = last_[disk];
   return last.peer == none || last.peer == peer ? last.round : last.round + 1;
@@ -85,7 +84,7 @@ void BorderRounds::begin_pass() {
   for (Peer& peer : peers_) peer.next = 0;
 }
 
-// Which contacts wait for one across a border, and their rounds as far as this rank knows.
+// Finds the contacts that wait for one across a border, and their rounds as far as this rank knows.
 void BorderRounds::find_waiting(std::size_t disks) {
   waiting_.clear();
   assign_amply(round_, contacts_.size(), 0U);
@@ -110,8 +109,8 @@ void BorderRounds::find_waiting(std::size_t disks) {
   }
 }
 
-// What the other side of each border says of the contacts across it. Returns whether some are later than this rank
-// knew.
+// Takes the rounds that the other side of each border has for the contacts across it. Returns whether some are later
+// than this rank knew.
 bool BorderRounds::learn_rounds() {
   std::array<Bytes, most_peers> out;
   for (std::size_t p = 0; p < peers_.size(); ++p) put_all(out[p], peers_[p].known);
@@ -128,7 +127,7 @@ bool BorderRounds::learn_rounds() {
   return later;
 }
 
-// Rounds only grow, and none exceeds the number of contacts: so all ranks agree at last.
+// Rounds only grow, and none exceeds the number of contacts, so all ranks agree in the end.
 void BorderRounds::agree_on_rounds(std::size_t disks) {
   find_waiting(disks);
   while (ranks_.any(learn_rounds())) {
@@ -144,8 +143,8 @@ void BorderRounds::agree_on_rounds(std::size_t disks) {
   find_routes();
 }
 
-// A disk has to be sent before a contact across a border, unless the last contact that it had was across the same one:
-// that has run on both sides.
+// A disk must be sent before a contact across a border, unless its previous contact was across the same border: both
+// sides have processed that.
 void BorderRounds::note_wanted(std::uint32_t contact, std::size_t at, int peer, unsigned char direction) {
   const Pair& p = contacts_[contact];
   const std::uint32_t own = ghosts_->is_ghost(p.i1) ? p.i2 : p.i1;
@@ -191,7 +190,7 @@ void BorderRounds::fill_routes(const std::array<Bytes, most_peers>& wanted_by_ot
   }
 }
 
-// columns: patches of a layout; 0: there are no layouts.
+// columns: patches of a layout; 0 if there are no layouts.
 void BorderRounds::lay_out_phases(Patches& patches, std::uint32_t columns, const Executor& executor) {
   inside_count_.assign(rounds_ + 1, 0);
   for (std::size_t k = 0; k < contacts_.size(); ++k) {
@@ -219,7 +218,7 @@ void BorderRounds::lay_out_phases(Patches& patches, std::uint32_t columns, const
   first_phase_.push_back(patches.phases());
 }
 
-// As build_patches does it, in each round; across borders a patch for each peer. A disk has no contacts across two
+// As build_patches, in each round; across borders there is a patch for each peer. A disk has no contacts across two
 // borders in one round.
 void BorderRounds::share_out(Patches& patches, const Disks& disks, const std::vector<std::uint16_t>& in_contact,
                              const Executor& executor) {

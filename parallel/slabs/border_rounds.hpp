@@ -1,9 +1,10 @@
-// Running a list of contacts in order over several ranks, with the bits of the serial order. Contacts that share no
-// disk commute exactly, so each only has to wait for the earlier ones of its own disks. Those of a rank's own disks run
-// on it; those across a border run on both of its sides, where either has both disks. They take turns, in rounds: what
-// lies inside the slabs and waits for no border; what lies across borders and waits for that alone; inside again, what
-// has waited for those, and so on. Before what lies across borders, each rank sends the disks that others' contacts
-// have changed. How many rounds there are is agreed on: few where ids have nothing to do with places.
+// Processes a list of contacts in order on several ranks, with the bits of the serial order. Contacts that share no
+// disk commute exactly, so each only has to wait for the earlier ones of its own disks. Contacts of a rank's own disks
+// are processed on that rank, contacts across a border on both of its sides, each of which has both disks. This is done
+// in rounds: contacts inside the slabs that wait for no border; contacts across borders that wait only for these;
+// inside again those that have waited for a border, and so on. Before contacts across borders, each rank sends the
+// disks that the contacts of the other need and that have changed. The ranks agree on the number of rounds, which is
+// small if ids are not correlated with places.
 #pragma once
 
 #include <array>
@@ -21,16 +22,16 @@
 
 namespace carom {
 
-// All functions but counts() are collective.
+// All functions except counts() are collective.
 class BorderRounds {
  public:
   explicit BorderRounds(Ranks& ranks);
 
-  // For the contacts of a search. crossing: those across borders, own disk first, in any order; so many contacts with
-  // ghosts have the lists to come, at most.
+  // Begins with the contacts of a search. crossing: those across borders, own disk first, in any order; the lists to
+  // come have at most this number of contacts with ghosts.
   void begin(const std::vector<Pair>& crossing, const Disks& disks, const GhostDisks& ghosts);
 
-  // As build_patches. Contacts across a border are in the lists of both its sides, in the same order.
+  // As build_patches. A contact across a border is in the lists of both its sides, in the same order.
   template <class DisksOf>
   void build(Patches& patches, const Disks& disks, const std::vector<std::uint16_t>& in_contact, std::size_t contacts,
              const Executor& executor, DisksOf&& disks_of) {
@@ -40,8 +41,8 @@ class BorderRounds {
     share_out(patches, disks, in_contact, executor);
   }
 
-  // Before each phase of run_patches: what others have of this rank's disks, where the phase lies across borders.
-  // values (disk_values.hpp): those of a disk that the contacts change.
+  // Called before each phase of run_patches: if the phase is across borders, sends this rank's disks to the ranks that
+  // have them as ghosts. values (disk_values.hpp): of a disk, those that the contacts change.
   template <class Values>
   void before(std::uint32_t phase, bool backwards, Values values) {
     const std::uint32_t round = round_of_phase_[phase];
@@ -53,7 +54,7 @@ class BorderRounds {
     send_values(routes, values);
   }
 
-  // The same for all disks that have a contact across a border.
+  // The same for all disks with a contact across a border.
   template <class Values>
   void refresh(Values values) {
     std::array<const Route*, most_peers> routes{};
@@ -61,7 +62,7 @@ class BorderRounds {
     send_values(routes, values);
   }
 
-  // Are the contacts of a patch counted by this rank? Those across a border are by the lower one.
+  // Does this rank count the contacts of a patch? Those across a border are counted by the lower rank.
   bool counts(std::size_t patch) const { return counted_[patch] != 0; }
 
   std::uint32_t rounds() const { return rounds_; }
@@ -71,21 +72,21 @@ class BorderRounds {
   static constexpr std::uint32_t inside = UINT32_MAX;
   static constexpr int none = -1;
 
-  // Own disks whose values go to a rank, and ghosts whose values come from it.
+  // Own disks whose values are sent to a rank, and ghosts whose values are received from it.
   struct Route {
     std::vector<std::uint32_t> send, receive;
   };
-  // A rank with a border to this one.
+  // A rank that has a border with this one.
   struct Peer {
-    bool counts = false;  // it counts the contacts across the border
+    bool counts = false;  // does it count the contacts across the border?
     Route all;
-    std::vector<Route> forward, back;     // by rounds of the list
-    std::vector<std::uint32_t> contacts;  // of the list, across the border
-    std::vector<std::uint32_t> known;     // of each: a round that it cannot be before
-    std::vector<unsigned char> wanted;    // of each: in which directions its own disk has to be sent
-    std::size_t next = 0;                 // of contacts, in a pass
+    std::vector<Route> forward, back;     // for each round of the list
+    std::vector<std::uint32_t> contacts;  // those of the list that are across the border
+    std::vector<std::uint32_t> known;     // of each contact: the earliest round that is possible
+    std::vector<unsigned char> wanted;    // of each contact: the directions in which its own disk must be sent
+    std::size_t next = 0;                 // index into contacts, in a pass
   };
-  // Of a disk: round of its contact before, and the peer across whose border that was.
+  // The round of a disk's previous contact, and the peer if it was across a border.
   struct Last {
     std::uint32_t round = 0;
     int peer = none;
@@ -123,18 +124,18 @@ class BorderRounds {
 
   Ranks& ranks_;
   const GhostDisks* ghosts_ = nullptr;
-  std::vector<Peer> peers_;                    // below and above; one where both are the same rank
-  std::vector<Pair> contacts_;                 // the list
-  std::vector<std::uint32_t> round_;           // of each
-  std::vector<std::uint32_t> waiting_;         // contacts across borders, and those that have one of theirs before them
+  std::vector<Peer> peers_;                    // below and above; only one if both are the same rank
+  std::vector<Pair> contacts_;                 // of the list
+  std::vector<std::uint32_t> round_;           // of each contact
+  std::vector<std::uint32_t> waiting_;         // contacts across borders, and those that come after one of them
   std::vector<Last> last_;                     // of each disk
-  std::vector<unsigned char> reached_border_;  // by each disk: it is in one of waiting_
-  std::uint32_t rounds_ = 0;                   // across borders
-  std::vector<std::uint32_t> first_phase_;     // inside, of each round, and one more
-  std::vector<std::uint32_t> inside_count_;    // contacts inside, of each round
-  std::vector<std::uint32_t> round_of_phase_;  // of a phase across borders, else inside
-  std::vector<std::uint32_t> reached_;         // by each disk: the phase of its latest contact
-  std::vector<unsigned char> counted_;         // of each patch
+  std::vector<unsigned char> reached_border_;  // of each disk: is it in one of waiting_?
+  std::uint32_t rounds_ = 0;                   // number of rounds across borders
+  std::vector<std::uint32_t> first_phase_;     // the first phase of each round inside, and the one behind the last
+  std::vector<std::uint32_t> inside_count_;    // contacts inside, for each round
+  std::vector<std::uint32_t> round_of_phase_;  // of each phase: its round if it is across borders, else `inside`
+  std::vector<std::uint32_t> reached_;         // of each disk: the phase of its latest contact
+  std::vector<unsigned char> counted_;         // of each patch: does this rank count it?
 };
 
 }  // namespace carom

@@ -10,7 +10,7 @@ namespace carom {
 
 namespace {
 
-// What rounding may make of a distance from a border, generously; share of the box's height.
+// A generous bound for the rounding of a distance from a border; share of the box's height.
 constexpr double rounding = 1e-12;
 
 // Storage indices [first, last).
@@ -19,7 +19,8 @@ struct Run {
   bool holds(std::uint32_t i) const { return i >= first && i < last; }
 };
 
-// The disks of a level that were sorted into rows up to, and from, these; all where the rank has no such row.
+// The disks of a level that were sorted into rows up to this one, or from this one on; all disks if the rank does not
+// have the row.
 Run rows_up_to(const GridLevel& level, const SortedCells& cells, std::uint32_t row) {
   const std::uint32_t rows = std::min(row - level.first_row + 1, level.kept_rows);
   return {cells.start[level.start_key()], cells.start[level.start_key() + rows * level.stride]};
@@ -42,7 +43,7 @@ Slab slab_of(const SlabCut& cut, const Domain& box, int rank) {
   return {cut.low(rank), cut.high(rank), last > 0 && (seam || rank > 0), last > 0 && (seam || rank < last)};
 }
 
-// From the middle of the slab, so that it may be more than half of a periodic box.
+// Measured from the middle of the slab, which may be more than half of a periodic box.
 Beyond beyond(const Slab& slab, const Domain& box, double y) {
   const double half = 0.5 * (slab.high - slab.low);
   double off = y - (slab.low + half);
@@ -56,7 +57,7 @@ void find_near_borders(const Slab& slab, const Disks& disks, const CellList& cel
   if (disks.empty()) return;
   std::vector<Run> runs;
   for (const GridLevel& level : cells.grid.levels) {
-    // All but strays are within the margin of their cell.
+    // All disks except strays are within the margin of their cell.
     const double reach = depth + level.margin + rounding * level.rows * level.cell_height;
     Run lower{0, 0};
     if (slab.has_lower) {

@@ -1,5 +1,5 @@
-// Disks on their way from a rank to its neighbours, a bounded number at a time, so that no rank ever holds a second
-// copy of many; and the places in its columns that they leave.
+// Disks that move from a rank to its neighbours, a bounded number at a time, so that no rank ever holds a second copy
+// of many disks; and the places that they leave in its columns.
 #pragma once
 
 #include <algorithm>
@@ -14,10 +14,10 @@
 
 namespace carom {
 
-// In a message to a neighbour: 180 kB.
+// Disks in a message to a neighbour: 180 kB.
 inline constexpr std::size_t disks_a_message = std::size_t{1} << 11;
 
-// Disks for each neighbour, by storage index.
+// The disks for each neighbour, by storage index.
 struct ForNeighbours {
   std::vector<std::uint32_t> below, above;
 
@@ -30,7 +30,7 @@ inline std::span<const std::uint32_t> piece_of_list(const std::vector<std::uint3
   return std::span(list).subspan(from, std::min(list.size() - from, disks_a_message));
 }
 
-// Disks that go to a neighbour, with what goes with them; behind how many there are in all its pieces.
+// A message with disks for a neighbour and the data that belong to them, behind the number of disks in all its pieces.
 inline Bytes message_of(const State& state, std::span<const std::uint32_t> disks, std::size_t in_all) {
   Bytes message;
   message.reserve(2 * sizeof(std::size_t) + disks.size() * sizeof(MovingDisk));
@@ -40,9 +40,10 @@ inline Bytes message_of(const State& state, std::span<const std::uint32_t> disks
   return message;
 }
 
-// Collective; most: of any rank's lists. expect(below, above): so many will come in all, called once, before the
-// others. sent(k): disks with these storage indices have been sent, and may be written over. take(disk, is_from_above):
-// one has come; those from one neighbour in the order of its list.
+// Collective. most: the largest number of disks in any rank's lists. expect(below, above) is called once, before the
+// others, with the numbers of disks that will come in all. sent(k): the disks with these storage indices have been
+// sent, and may be overwritten. take(disk, is_from_above): a disk has come; those from one neighbour come in the order
+// of its list.
 template <class Expect, class Sent, class Take>
 void exchange_disks(Ranks& ranks, const State& state, const ForNeighbours& disks, std::size_t most, Expect&& expect,
                     Sent&& sent, Take&& take) {
@@ -63,8 +64,8 @@ void exchange_disks(Ranks& ranks, const State& state, const ForNeighbours& disks
   }
 }
 
-// Places that disks have left: others take them, and in the end those that are stored last. Which disk is stored where
-// changes by that, which no bit depends on.
+// Places left by disks: new disks take them, and in the end the disks that are stored last. This changes which disk is
+// stored where, which affects no bit.
 class DiskHoles {
  public:
   void add(std::span<const std::uint32_t> places) { places_.insert(places_.end(), places.begin(), places.end()); }
@@ -76,7 +77,7 @@ class DiskHoles {
     places_.pop_back();
   }
 
-  // From the last hole to the first: what is stored last is then never in another one.
+  // From the last hole to the first, so that the disk that is stored last is never in another hole.
   void close(Disks& d) {
     std::sort(places_.begin(), places_.end(), std::greater<>());
     std::size_t n = d.size();

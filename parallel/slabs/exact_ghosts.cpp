@@ -13,21 +13,22 @@ namespace carom {
 
 namespace {
 
-// New ghosts are due when disks that are not here have come nearer than this share of the depth, or one of the rank's
-// own has left its slab by so much of it.
+// New ghosts are due when disks that this rank does not have have come nearer than this share of the depth, or one of
+// the rank's own has left its slab by that share of it.
 constexpr double least_share_left = 0.7;
 constexpr double excursion_share = 0.1;
-// Disks that are not here are taken to come nearer by at least what the fastest one covers in so many slices.
+// Disks that this rank does not have are assumed to come nearer by at least the flight of the fastest disk in this
+// number of slices.
 constexpr double slices_ahead = 2.0;
 
-// A ghost whose motion in the slice is not known: its number among those that the neighbour shows, and how many paths
-// it is known to have begun.
+// A ghost whose motion in the slice is not known: its number among those that the neighbour shows, and the number of
+// paths that it is known to have begun.
 struct Question {
   std::uint32_t number;
   std::uint16_t version;
 };
 
-// What has become of it, where it has begun more.
+// The ghost's present path, if it has begun more paths than that.
 struct Answer {
   std::uint32_t number;
   std::uint32_t thermal_hits;
@@ -99,7 +100,7 @@ void ExactGhosts::see(const Slab& slab, const Domain& box, double depth, DiskCol
 }
 
 void ExactGhosts::find_places(const Disks& d) {
-  // Of all disks that another rank has too.
+  // The places of all disks that another rank has, too.
   std::vector<std::pair<DiskId, std::uint32_t>> place_of;
   place_of.reserve(below_.shown.ids.size() + above_.shown.ids.size() + count());
   for (std::uint32_t i = 0; i < d.size(); ++i) {
@@ -142,7 +143,8 @@ void ExactGhosts::look_beyond(const Disks& d, const Approach& approach) {
   put(to_below, of_below_.nearest);
   put(to_above, of_above_.nearest);
   const auto [from_below, from_above] = ranks_.exchange(to_below, to_above);
-  // Further away may be disks of the ranks beyond the neighbours, which are not watched: as near as any can come.
+  // Further away there may be disks of the ranks beyond the neighbours, which are not watched: they are assumed to be
+  // as near as they can have come.
   const double behind = std::min(depth_, approach.thinnest - most_excursion() - (approach.furthest - approach.taken));
   beyond_below_ = slab_.has_lower ? std::min(MessageReader(from_below).get<double>(), behind) : HUGE_VAL;
   beyond_above_ = slab_.has_upper ? std::min(MessageReader(from_above).get<double>(), behind) : HUGE_VAL;

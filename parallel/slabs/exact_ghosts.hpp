@@ -1,5 +1,5 @@
-// The ghosts of a rank that runs `exact`: the disks of its neighbours up to a depth beyond its slab's borders, with all
-// that they do. They are chosen when disks are sorted, and the same until the next time.
+// The ghosts of a rank that runs `exact`: its neighbours' disks up to a depth beyond its slab's borders, with their
+// complete motion. They are chosen when disks are sorted, and stay the same until the next time.
 #pragma once
 
 #include <cmath>
@@ -16,23 +16,23 @@
 
 namespace carom {
 
-// How disks that a rank does not have may come nearer to it in a window; lengths.
+// The approach, in a window, of disks that a rank does not have; lengths.
 struct Approach {
-  double furthest = 0.0;  // no disk goes further in the window
-  double taken = 0.0;     // they are taken to come nearer by this much at most; no more than `furthest`
-  double thinnest = 0.0;  // of all slabs: beyond a neighbour's lie those of the next rank
+  double furthest = 0.0;  // no disk flies further in the window
+  double taken = 0.0;     // assumed largest approach; at most `furthest`
+  double thinnest = 0.0;  // of all slabs: beyond a neighbour's slab are disks of the next rank
 };
 
 class ExactGhosts final : public WindowGhosts {
  public:
   explicit ExactGhosts(Ranks& ranks) : ranks_(ranks) {}
 
-  // Takes the ghosts out of the columns again, and those that are gone: empty, or an entry for each disk. Disks behind
-  // those that there were are the rank's own.
+  // Removes the ghosts from the columns, and the disks marked in `gone`, which is empty or has an entry for each disk.
+  // Disks behind those of the last window are the rank's own.
   void drop(State& state, const std::vector<unsigned char>& gone = {});
-  // May there be ghosts among the columns?
+  // May there be ghosts in the columns?
   bool any() const { return !marks_.empty(); }
-  // Of n disks the rank's own.
+  // The number of the rank's own disks among n.
   std::size_t own_among(std::size_t n) const {
     std::size_t own_disks = 0;
     visit_own(n, [&](std::size_t begin, std::size_t end) { own_disks += end - begin; });
@@ -40,25 +40,26 @@ class ExactGhosts final : public WindowGhosts {
   }
   // An entry for each of n disks, 1 for ghosts.
   std::vector<unsigned char> ghosts_among(std::size_t n) const;
-  // The disks of the state are those in the rank's slab; it gets the ghosts, up to this depth (length) beyond the
-  // slab's borders. Collective. Precondition: no slab is thinner than the depth, and in a periodic box the slab with
-  // its ghosts is lower than the box.
+  // The disks of the state are those in the rank's slab; adds the ghosts, up to this depth (length) beyond the slab's
+  // borders. Collective. Preconditions: no slab is thinner than the depth, and in a periodic box the slab with its
+  // ghosts is lower than the box.
   void see(const Slab& slab, const Domain& box, double depth, DiskColumns columns, State& state);
   std::size_t count() const { return below_.ghosts.ids.size() + above_.ghosts.ids.size(); }
-  // After they have been sorted with the others.
+  // After the ghosts have been sorted with the other disks.
   void find_places(const Disks& disks);
 
-  // Before each window: how near the disks that this rank does not have have come. Collective.
+  // Before each window: finds how near the disks that this rank does not have have come. Collective.
   void look_beyond(const Disks& disks, const Approach& approach);
-  // Are there so few left between these and the slab that new ghosts are due?
+  // Is the band of ghosts between these and the slab so thin that new ghosts are due?
   bool are_few() const;
 
   // At the start of a window that is run, no disk of any rank has left its slab by more than this; length.
   double most_excursion() const;
-  // No disk went further than this in a slice of the last window; length. HUGE_VAL: there was none.
+  // No disk flew further than this in a slice of the last window; length. HUGE_VAL if there was none.
   double slice_flight() const { return slice_flight_; }
 
-  // Disks [begin, end) by storage index, in runs: visit(first, last, is_own), with whether they are the rank's own.
+  // Calls visit(first, last, is_own) for runs of disks in [begin, end), by storage index; is_own: they are the rank's
+  // own.
   template <class Visit>
   void visit_runs(std::size_t begin, std::size_t end, Visit&& visit) const {
     for (std::size_t i = begin; i < end;) {
@@ -69,7 +70,7 @@ class ExactGhosts final : public WindowGhosts {
       i = last;
     }
   }
-  // The rank's own among the first n.
+  // Calls visit for the rank's own disks among the first n.
   template <class Visit>
   void visit_own(std::size_t n, Visit&& visit) const {
     visit_runs(0, n, [&](std::size_t first, std::size_t last, bool is_own) {
@@ -86,23 +87,23 @@ class ExactGhosts final : public WindowGhosts {
   void learn(WindowState& window, const std::vector<std::uint32_t>& unknown) override;
 
  private:
-  // Of a disk, as bits.
+  // Marks of a disk, as bits.
   enum Mark : std::uint8_t { own = 0, ghost = 1, seen_below = 2, seen_above = 4 };
-  // What one of two neighbours has of the other, in one order on both ranks: ids, and where they are stored.
+  // The disks that one of two neighbours has of the other, in the same order on both ranks: ids, and storage indices.
   struct Shared {
     std::vector<DiskId> ids;
     std::vector<std::uint32_t> places;
   };
-  // Disks that this rank shows to a neighbour, and its ghosts that the neighbour shows.
+  // Disks that this rank shows to a neighbour, and its ghosts, which the neighbour shows.
   struct Border {
     Shared shown, ghosts;
   };
-  // Disks of this rank that a neighbour does not have, and which may be the nearest ones to it in the window.
+  // Disks of this rank that a neighbour does not have, and which may come nearest to it in the window.
   struct Strangers {
-    double nearest = HUGE_VAL;  // from the border, at the window's start
+    double nearest = HUGE_VAL;  // distance from the border at the window's start
     std::vector<std::uint32_t> places;
   };
-  // A ghost by storage index: which border it lies beyond, and its number there.
+  // A ghost by storage index: the border that it is beyond, and its number there.
   struct GhostPlace {
     std::uint32_t place, number;
     bool above;
@@ -118,17 +119,17 @@ class ExactGhosts final : public WindowGhosts {
 
   Ranks& ranks_;
   Slab slab_;
-  KnownBand band_;  // centre and period
+  KnownBand band_;  // only centre and period are used
   double half_ = 0.0, depth_ = 0.0;
-  double beyond_below_ = 0.0, beyond_above_ = 0.0;  // from the borders to the first disk that is not here
-  double excursion_ = 0.0;                          // how far a disk of this rank has left its slab
+  double beyond_below_ = 0.0, beyond_above_ = 0.0;  // from the borders to the nearest disk that this rank does not have
+  double excursion_ = 0.0;                          // largest distance of a disk of this rank from its slab
   double furthest_ = 0.0, taken_ = 0.0;             // of the window's Approach
-  double slice_flight_ = HUGE_VAL;                  // as band() says; of the last window
+  double slice_flight_ = HUGE_VAL;                  // of the last window, as given to band()
   Strangers of_below_, of_above_;
   Border below_, above_;
   std::vector<std::uint8_t> marks_;  // by storage index
   PlaceSet ghosts_;
-  std::vector<GhostPlace> ghost_places_;  // in order of places, as ghosts_ counts them
+  std::vector<GhostPlace> ghost_places_;  // in order of storage, in which ghosts_ numbers them
 };
 
 }  // namespace carom

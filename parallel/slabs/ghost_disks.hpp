@@ -1,4 +1,4 @@
-// Disks of other ranks that a rank sees in a step: stored behind its own ones, and dropped at the step's end.
+// Disks of other ranks that a rank needs in a step: stored behind its own ones, and removed at the step's end.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ enum Border : std::uint8_t { no_border = 0, lower_border = 1, upper_border = 2, 
 
 class GhostDisks {
  public:
-  // None yet; the rank's own disks are those before `own`.
+  // Begins without ghosts; the rank's own disks are those before `own`.
   void begin(std::size_t own) {
     own_ = own;
     places_.clear();
@@ -28,7 +28,7 @@ class GhostDisks {
   std::size_t own() const { return own_; }
   std::size_t count() const { return border_.size(); }
 
-  // Stores those of the disks that are not there yet, as seen beyond this border.
+  // Stores those of the disks that are not stored yet, as disks beyond this border.
   void add(const std::vector<Disk>& disks, Border border, DiskColumns columns, Disks& d) {
     const std::size_t known = places_.size();
     for (const Disk& disk : disks) {
@@ -40,10 +40,10 @@ class GhostDisks {
     std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) { return a.id < b.id; });
   }
 
-  // Where the disk is stored, if it is a ghost here.
+  // The storage index of the disk, if it is a ghost.
   std::optional<std::uint32_t> find(DiskId id) const { return find_among(places_.size(), id); }
 
-  // Beyond which border the ghost at storage index i was seen first.
+  // The border beyond which the ghost at storage index i was first found.
   Border border_of(std::uint32_t i) const { return border_[i - own_]; }
 
  private:

@@ -1,4 +1,5 @@
-// A rank's disks by ranges of ids: what all ranks send to rank 0 at a time, where it wants disks in order of id.
+// A rank's disks by ranges of ids: the pieces that all ranks send to rank 0 one at a time if it needs disks in order of
+// id.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +12,12 @@
 
 namespace carom {
 
-// Ids of a piece: a megabyte of disks, so that messages are not mapped each by itself (give_back_columns in app/cli).
+// Ids in a piece: a megabyte of disks, so that messages do not have mappings of their own (give_back_columns in
+// app/cli).
 inline constexpr unsigned id_piece_shift = 14;
 inline constexpr std::size_t ids_a_piece = std::size_t{1} << id_piece_shift;
 
-// How many pieces there are of ids 0 to ids - 1.
+// The number of pieces for ids 0 to ids - 1.
 inline std::size_t id_pieces(std::size_t ids) {
   return (ids + ids_a_piece - 1) >> id_piece_shift;
 }
@@ -33,7 +35,7 @@ class IdPieces {
     }
   }
 
-  // Storage indices of the disks of a piece, in any order; none of a piece that there is not.
+  // Storage indices of the disks of a piece, in any order; empty for a piece that does not exist.
   std::span<const std::uint32_t> operator[](std::size_t piece) const {
     if (piece >= ends_.size()) return {};
     const std::size_t begin = piece == 0 ? 0 : ends_[piece - 1];

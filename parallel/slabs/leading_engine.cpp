@@ -19,7 +19,7 @@ namespace carom {
 
 namespace {
 
-// The text that rank 0 has, on all ranks.
+// Returns rank 0's text on all ranks.
 std::string shared_text(Ranks& ranks, const std::string& text) {
   Bytes first;
   put_text(first, text);
@@ -34,7 +34,7 @@ std::unique_ptr<Engine> make_part(const Scene& scene, State part, const SlabStar
 
 class LeadingEngine final : public Engine {
  public:
-  // Of exact: it knows where disks were within a window.
+  // For exact: the engine knows where disks were within a window.
   LeadingEngine(Ranks& ranks, RankLead& lead, const Scene& scene, std::unique_ptr<Engine> part, const Threads& threads)
       : ranks_(ranks),
         lead_(lead),
@@ -123,7 +123,7 @@ class LeadingEngine final : public Engine {
     return all;
   }
 
-  // Ranks may store their disks in another order then.
+  // Ranks may store their disks in another order afterwards.
   void release_memory() override {
     whole_.reset();
     shown_ = 0;
@@ -140,7 +140,7 @@ class LeadingEngine final : public Engine {
   std::vector<std::string> take_warnings() override { return part_.engine().take_warnings(); }
 
  private:
-  // Each piece is a call of its own, so that ranks wait for the next call, whatever it is, when a writer gives up.
+  // Each piece is a call of its own, so that ranks wait for the next call, whichever it is, if a writer gives up.
   class Pieces final : public StatePieces {
    public:
     explicit Pieces(const LeadingEngine& engine) : engine_(engine) {
@@ -149,7 +149,7 @@ class LeadingEngine final : public Engine {
 
     const State& part() const override { return engine_.progress(); }
 
-    // Loads across borders are there twice, so that only those that come can be counted.
+    // Loads across borders exist twice, so they can only be counted as they come.
     Count entries(StateList list) const override {
       if (list != StateList::loads) return engine_.part_.lists().entries(list);
       Count loads = 0;
@@ -170,7 +170,7 @@ class LeadingEngine final : public Engine {
     const LeadingEngine& engine_;
   };
 
-  // The ranks show one moment at a time: another one in between is shown again where it is needed.
+  // The ranks show one moment at a time: if another one has been shown in between, this one is shown again when needed.
   class Shown final : public DisksInPieces {
    public:
     Shown(const LeadingEngine& engine, double t, Disks& room) : engine_(engine), t_(t), room_(room) {
@@ -214,7 +214,7 @@ class LeadingEngine final : public Engine {
     }
 
    private:
-    // What the ranks find among the disks that are shown, each in its slab.
+    // The result of the ranks for the disks that are shown, each in its slab.
     template <class Found, class Find>
     std::optional<Found> found(RankCall call, const Find& find) const {
       if (engine_.part_.cut() == nullptr) return std::nullopt;
@@ -224,7 +224,8 @@ class LeadingEngine final : public Engine {
       return all;
     }
 
-    // One call for all pieces, as ranks wait for each other at each: what use() throws waits until all have come.
+    // All pieces are one call, in each of which ranks wait for each other: an exception of use() is kept until all have
+    // come.
     template <class Visit>
     void visit_all(RankCall call, const Use& use, const Visit& visit_them) const {
       std::exception_ptr failed;
@@ -259,7 +260,8 @@ class LeadingEngine final : public Engine {
     mutable Count number_ = 0;
   };
 
-  // What all ranks do at once. An error of the physics is every rank's; any other leaves them apart.
+  // Runs work on all ranks at once. An error of the physics occurs on every rank; after any other one they are out of
+  // step.
   template <class Work>
   void together(RankCall call, Work&& work) const {
     try {
@@ -277,8 +279,8 @@ class LeadingEngine final : public Engine {
   RankLead& lead_;
   mutable RankPart part_;
   bool knows_paths_;
-  mutable Count shows_ = 0, shown_ = 0;   // how often moments were shown, and which one is; 0: none
-  mutable std::unique_ptr<State> whole_;  // of all ranks, since it was asked for after the last step
+  mutable Count shows_ = 0, shown_ = 0;  // how many moments have been shown, and the number of the present one; 0: none
+  mutable std::unique_ptr<State> whole_;  // of all ranks, if it was asked for after the last step
 };
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace carom {
 
 namespace {
 
-// Loads that go from a rank to others at a time: a megabyte.
+// Loads that a rank sends to others at a time: a megabyte.
 constexpr std::size_t loads_a_piece = std::size_t{1} << 16;
 
 bool same_contact(const ContactLoad& a, const ContactLoad& b) {

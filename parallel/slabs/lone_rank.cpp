@@ -14,7 +14,7 @@ namespace carom {
 
 namespace {
 
-// What all ranks know of a state. Into an empty box the first newcomer brings the radius and the mass that disks share.
+// What all ranks know of a state. In an empty box the first newcomer sets the radius and the mass that disks share.
 struct Progress {
   double time, window;
   Counters counters;

@@ -1,4 +1,4 @@
-// Rank 0 running a scene alone, where slabs do not do: it has all disks, and the others wait for what comes of them.
+// Rank 0 running a scene alone if slabs are not possible: it has all disks, and the others wait for its results.
 #pragma once
 
 #include <memory>
@@ -21,19 +21,19 @@ class LoneRank {
 
   // Takes the disks of all ranks, which have these columns. Collective, as are step() and end().
   void begin(DiskColumns columns, State& state);
-  // Between begin() and end(), on every rank.
+  // True between begin() and end(), on every rank.
   bool runs() const { return runs_; }
-  // A window. state gets all that is not of disks; an error of the physics is every rank's.
+  // Runs a window. state gets everything except disks; an error of the physics is thrown on every rank.
   void step(State& state);
-  // As of an engine.
+  // As the functions of an engine.
   void forget_paths();
   void release_memory() {
     if (engine_) engine_->release_memory();
   }
-  // The disks are in the state of rank 0 again; all ranks learn which columns they have, and how many they are.
+  // Moves the disks back to the state of rank 0; all ranks learn the disks' columns and number.
   void end(State& state, DiskColumns& columns, Count& disks);
 
-  // Of rank 0, with all disks; the others give back `here`, which has none.
+  // On rank 0 the state with all disks; on the others `here`, which has none.
   const State& state(const State& here) const { return engine_ ? engine_->state() : here; }
   double disks_at(double t, const State& here, Disks& out) const;
   double fastest_within() const { return engine_ ? engine_->fastest_within() : 0.0; }
@@ -52,8 +52,8 @@ class LoneRank {
   std::vector<std::string> warnings_;
 };
 
-// This rank's part of an engine of which rank 0 has all disks from the start to the end; it warns of that, with
-// start.alone. part and start: as of make_slab_part.
+// This rank's part of an engine of which rank 0 has all disks from start to end; it warns of that, with start.alone.
+// part and start: as for make_slab_part.
 std::unique_ptr<Engine> make_lone_part(const Scene& scene, State part, const SlabStart& start, const Threads& threads,
                                        Ranks& ranks);
 

@@ -1,4 +1,4 @@
-// Disks that come to a rank's columns from another one, and go again.
+// Disks that come to a rank's columns from another rank, and leave them again.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace carom {
 
-// How often thermal sides have reflected a disk: what of a state is by id and goes with its disk. Every rank has
-// entries for all ids; those of its own disks are right.
+// How often thermal sides have reflected a disk. This is stored by id, and moves with its disk: every rank has entries
+// for all ids, but only those of its own disks are right.
 inline std::uint32_t thermal_hits_of(const State& state, DiskId id) {
   return id < state.thermal_hits.size() ? state.thermal_hits[id] : 0;
 }
@@ -18,12 +18,12 @@ inline void take_thermal_hits(State& state, DiskId id, std::uint32_t hits) {
   if (id < state.thermal_hits.size()) state.thermal_hits[id] = hits;
 }
 
-// The same of the time of a disk's last collision.
+// The time of a disk's last collision, stored in the same way.
 inline double last_contact_of(const State& state, DiskId id) {
   return id < state.last_contact.size() ? state.last_contact[id] : 0.0;
 }
 
-// A disk with all that goes with it.
+// A disk with all data that move with it.
 struct MovingDisk {
   Disk disk;
   double last_contact;
@@ -35,7 +35,7 @@ inline MovingDisk moving_disk(const State& state, std::size_t i) {
   return {disk_at(state.disks, i), last_contact_of(state, id), thermal_hits_of(state, id)};
 }
 
-// All of it but the disk itself.
+// Stores these data without the disk itself.
 inline void take_what_goes_along(State& state, const MovingDisk& moving) {
   take_thermal_hits(state, moving.disk.id, moving.thermal_hits);
   if (moving.disk.id < state.last_contact.size()) state.last_contact[moving.disk.id] = moving.last_contact;

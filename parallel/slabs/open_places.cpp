@@ -62,7 +62,7 @@ void OpenPlaces::share_list() {
   in_vain_ = 0;
 }
 
-// Cells that each disk closes beyond those that the ones before it close.
+// For each disk, the number of cells that it closes and that those before it do not.
 std::vector<std::int64_t> OpenPlaces::close(const std::vector<DiskToPlace>& disks,
                                             const std::vector<TrialPlace>& places) {
   std::vector<std::int64_t> closed;

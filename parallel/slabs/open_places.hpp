@@ -1,4 +1,4 @@
-// Where disks that ranks place at random may still find room.
+// Where disks that ranks place at random may still have room.
 #pragma once
 
 #include <cstddef>
@@ -15,19 +15,19 @@
 
 namespace carom {
 
-// A disk's place, and the trials in vain before it was found.
+// A disk's place, and the number of failed trials before it was found.
 struct TrialPlace {
   Vec2 at;
   std::uint64_t trial = 0;
 };
 
 // What PlacementSearch (core/start/placement_search.hpp) learns of the box for one class of disks, at the same moments:
-// nothing, which cells are open, a list of voxels. Each rank learns it of its own rows; what they tell each other are
-// numbers of cells and of voxels. Whatever is returned is the same on all ranks.
+// first nothing, then the open cells, then a list of voxels. Each rank learns it for its own rows; ranks tell each
+// other only numbers of cells and of voxels. All return values are the same on all ranks.
 class OpenPlaces {
  public:
-  // largest_radius: of any disk; length. most_trials: in vain, of all disks together. disks: those near this rank's
-  // rows, which the grid holds. known: this rank's heights; the rows of all ranks are all of the box.
+  // largest_radius: of any disk; length. most_trials: failed ones, of all disks together. disks: those near this rank's
+  // rows, which the grid holds. known: this rank's heights; the rows of all ranks together make up the box.
   OpenPlaces(const Domain& box, const SizeClass& of, double largest_radius, std::uint64_t most_trials,
              const KnownHeights& known, const Disks& disks, const PlacementGrid& grid, Ranks& ranks)
       : box_(box),
@@ -39,27 +39,27 @@ class OpenPlaces {
         grid_(grid),
         ranks_(ranks) {}
 
-  // Is there something to learn after so many disks of the class?
+  // Is a lesson due after this number of disks of the class?
   bool lesson_due(std::size_t placed) const;
-  // Collective. The grid has all disks that are placed and near. False where its rows reach further than this is for.
+  // Collective. The grid has all disks that are placed nearby. Returns false if its rows exceed what this is made for.
   bool learn();
 
-  // How many disks there are up to the next lesson, one at least, if they take so many trials each. Before there is a
-  // list, that is not foreseen.
+  // The number of disks up to the next lesson, at least one, if they take these numbers of trials. It is not predicted
+  // before there is a list.
   std::size_t disks_before_lesson(const std::vector<std::uint64_t>& trials) const;
 
-  // Voxels, the same whoever has them; none where there is no list yet.
+  // The voxels, the same on all ranks, whichever has them; null if there is no list yet.
   const VoxelList* list() const { return list_ ? &*list_ : nullptr; }
 
-  // Counts what a batch of disks costs and closes, in order, up to the first before which a lesson is due; returns how
-  // many that are, one at least, or 0 where the trials run out. placed: those of the class before the batch.
-  // Collective.
+  // Counts the trials of a batch of disks and the cells that they close, in order, up to the first disk before which a
+  // lesson is due; returns the number of disks counted, at least one, or 0 if the trials run out. placed: disks of the
+  // class before the batch. Collective.
   std::size_t take_in(std::size_t placed, const std::vector<DiskToPlace>& disks, const std::vector<TrialPlace>& places);
 
-  // How far a disk may be from a rank's heights and still close cells of its rows, or be in the way of a disk there;
-  // length. largest_radius: of any disk.
+  // The largest distance of a disk from a rank's heights at which it still closes cells of its rows, or obstructs a
+  // disk there; length. largest_radius: of any disk.
   static double reach(double largest_radius) { return 2.0 * largest_radius + tallest_tile(largest_radius); }
-  // In vain, so far.
+  // Failed trials so far.
   std::uint64_t trials() const { return trials_; }
 
  private:
@@ -77,12 +77,12 @@ class OpenPlaces {
   const Disks& disks_;
   const PlacementGrid& grid_;
   Ranks& ranks_;
-  std::optional<OpenCells> cells_;  // made once trials become many
-  std::optional<VoxelList> list_;   // takes their place when few are open
-  std::size_t open_ = 0;            // cells, of all ranks
-  bool closed_ahead_ = false;       // do cells_ know disks that are not placed?
-  std::uint64_t trials_ = 0;        // in vain
-  std::uint64_t in_vain_ = 0;       // since the list was made or refined
+  std::optional<OpenCells> cells_;  // made once there are many trials
+  std::optional<VoxelList> list_;   // replaces the cells when few are open
+  std::size_t open_ = 0;            // number of open cells, on all ranks
+  bool closed_ahead_ = false;       // has cells_ been told of disks that are not placed?
+  std::uint64_t trials_ = 0;        // failed ones
+  std::uint64_t in_vain_ = 0;       // failed ones since the list was made or refined
 };
 
 }  // namespace carom

@@ -31,7 +31,7 @@ const Disks& OrderedDisks::piece(std::size_t number) {
   return some_;
 }
 
-// All disks of a piece at the places of their ids, those that there are closed up.
+// Puts all disks of a piece at the places of their ids, and then closes the gaps.
 void OrderedDisks::take(const std::vector<Bytes>& messages) {
   list_.resize(ids_a_piece);
   there_.assign(ids_a_piece, 0);

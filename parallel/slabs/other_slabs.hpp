@@ -1,4 +1,5 @@
-// What resolving a pile on one slab asks of the others: as SingleSlab (parallel/stepping/support_sweeps.hpp).
+// The exchange with other slabs while a pile on one slab is resolved: as SingleSlab
+// (parallel/stepping/support_sweeps.hpp).
 #pragma once
 
 #include <array>
@@ -22,10 +23,10 @@ class OtherSlabs {
   bool any(bool here) const { return ranks_.any(here); }
   bool counts(std::size_t patch) const { return rounds_.counts(patch); }
 
-  // Of ghosts this rank has counted the contacts with its own disks alone.
+  // Of ghosts this rank has counted only the contacts with its own disks.
   void complete_counts(ContactLists& lists) const { rounds_.refresh(ContactCounts{lists.contacts.data()}); }
 
-  // Maxima, and exact sums.
+  // Joins maxima, and exact sums.
   void add_up(CycleFigures& figures, Watch watch) const {
     std::array<double, 2> largest{figures.largest, figures.strain};
     ranks_.maximum(largest);

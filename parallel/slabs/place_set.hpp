@@ -1,4 +1,4 @@
-// A set of disks by storage index that tells which of its disks one is, in order, without a search.
+// A set of disks by storage index that numbers its disks in order, without a search.
 #pragma once
 
 #include <bit>
@@ -10,13 +10,13 @@ namespace carom {
 
 class PlaceSet {
  public:
-  // Of n disks none.
+  // Makes the set empty, for n disks.
   void clear(std::size_t n) {
     words_.assign(n / places_a_word + 1, 0);
     before_.clear();
   }
   void insert(std::uint32_t place) { words_[place / places_a_word] |= bit_of(place); }
-  // To be called when all are in.
+  // Must be called after the last insert().
   void count() {
     before_.resize(words_.size());
     std::uint32_t sum = 0;
@@ -25,8 +25,8 @@ class PlaceSet {
       sum += static_cast<std::uint32_t>(std::popcount(words_[w]));
     }
   }
-  // How many disks of the set are stored before this one. Precondition: count() has been called since the last
-  // insert().
+  // The number of disks of the set that are stored before this one. Precondition: count() has been called since the
+  // last insert().
   std::uint32_t number_of(std::uint32_t place) const {
     const std::size_t w = place / places_a_word;
     return before_[w] + static_cast<std::uint32_t>(std::popcount(words_[w] & (bit_of(place) - 1)));
@@ -37,7 +37,7 @@ class PlaceSet {
   static constexpr std::uint64_t bit_of(std::uint32_t place) { return std::uint64_t{1} << (place % places_a_word); }
 
   std::vector<std::uint64_t> words_;
-  std::vector<std::uint32_t> before_;  // of each word, disks in those before it
+  std::vector<std::uint32_t> before_;  // for each word: the number of disks in the words before it
 };
 
 }  // namespace carom

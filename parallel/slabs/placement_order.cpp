@@ -10,7 +10,7 @@ namespace carom {
 
 namespace {
 
-// What a rank offers beyond its part of the disks that are asked for, as shares are not equal.
+// The number of disks that a rank offers beyond its part of those asked for, since shares are not equal.
 constexpr std::size_t offered_more = 64;
 
 bool comes_first(const DiskToPlace& a, const DiskToPlace& b) {
@@ -57,7 +57,7 @@ std::vector<DiskToPlace> PlacementOrder::next(const SizeClass& of, std::size_t m
   Bytes message;
   put(message, std::uint8_t{end < share_.size()});
   for (std::size_t k = given_here_; k < end; ++k) put(message, share_[k]);
-  // Those that come before the last one of a rank that has more.
+  // Only disks that come before the last one offered by each rank that has more.
   DiskToPlace last{std::numeric_limits<DiskId>::max(), 0.0};
   for (const Bytes& offered : ranks_.gather(message)) {
     MessageReader reader(offered);

@@ -1,4 +1,4 @@
-// In which order disks are placed at random: large ones first, and of equal ones that with the smaller id.
+// The order in which disks are placed at random: large ones first, and of equal ones the one with the smaller id.
 #pragma once
 
 #include <cstddef>
@@ -14,31 +14,31 @@ struct DiskToPlace {
   double radius = 0.0;  // length
 };
 
-// Disks that follow one another and whose radii differ by less than a factor of two: a PlacementSearch learns anew
-// where there is room for each such class.
+// Successive disks whose radii differ by less than a factor of two: a PlacementSearch learns anew for each class where
+// there is room.
 struct SizeClass {
   double largest = 0.0, smallest = 0.0;  // radii
   std::size_t disks = 0;
 };
 
-// No rank knows the order of all disks: each has a share of them in order, and they tell each other which come next.
-// All calls are collective, and give the same on all ranks.
+// No rank knows the order of all disks: each has a share of them, in order, and they tell each other which come next.
+// All calls are collective, and give the same result on all ranks.
 class PlacementOrder {
  public:
   // disks outlives this.
   PlacementOrder(const StartDisks& disks, Ranks& ranks);
 
-  // The class that comes next; none of its disks has been given. Without disks after the last.
+  // The class that comes next; none of its disks has been given. After the last one, a class without disks.
   SizeClass next_class() const;
-  // The next disks of the class: `most` of them or fewer, one at least where there is one.
+  // The next disks of the class: at most `most`, and at least one if there is one.
   std::vector<DiskToPlace> next(const SizeClass& of, std::size_t most);
 
  private:
   const StartDisks& disks_;
   Ranks& ranks_;
-  bool equal_ = false;     // radii: then the order is that of ids
-  std::size_t given_ = 0;  // of all disks
-  // Otherwise this rank's share.
+  bool equal_ = false;     // are all radii equal? Then the order is that of ids
+  std::size_t given_ = 0;  // number of disks given, on all ranks
+  // If radii differ: this rank's share.
   std::vector<DiskToPlace> share_;
   std::size_t given_here_ = 0;
 };

@@ -7,15 +7,15 @@ namespace carom {
 
 namespace {
 
-// Trials of a disk that ranks tell each other of at first, where few disks are without a place; twice as many each
-// time. And those of all disks, unless there are more disks than that.
+// The number of trials of a disk that ranks exchange at first, when few disks are without a place; it is doubled each
+// time. The second number is that of all disks' trials, unless there are more disks than that.
 constexpr std::size_t first_trials = 16, trials_at_once = 4096;
-// Points whose memory is asked for at a time.
+// The number of points whose memory is fetched at a time.
 constexpr std::size_t points_at_once = 32;
 
 }  // namespace
 
-// Without a list every point is known, otherwise those in voxels of this rank.
+// Without a list every rank knows each point; with a list it knows those in its own voxels.
 std::optional<Vec2> PlacementTrials::known_point(const DiskToPlace& disk, const PlacementRoom& room,
                                                  std::uint64_t trial) const {
   const VoxelList* const list = places_.list();
@@ -24,7 +24,8 @@ std::optional<Vec2> PlacementTrials::known_point(const DiskToPlace& disk, const 
   return trial_point(site_.box, room, list, draw);
 }
 
-// Sets the trial's bit if its point is free, now or in answer(): while memory answers for one, others are drawn.
+// Sets the trial's bit if its point is free, now or in answer(): while memory for one point is fetched, others are
+// drawn.
 void PlacementTrials::ask(std::size_t trial, Vec2 point, double radius) {
   grid_.prefetch_cells(point.x, point.y);
   asked_.push_back({trial, point, radius});
@@ -84,7 +85,7 @@ std::vector<TrialPlace> PlacementTrials::places_of(const std::vector<DiskToPlace
     bits[2 * m] = std::bit_cast<std::int64_t>(p->x);
     bits[2 * m + 1] = std::bit_cast<std::int64_t>(p->y);
   }
-  if (places_.list() != nullptr) site_.ranks.sum(bits);  // each is known to one
+  if (places_.list() != nullptr) site_.ranks.sum(bits);  // each bit is known to one rank
   std::vector<TrialPlace> places;
   for (std::size_t m = 0; m < disks.size(); ++m) {
     places.push_back({{std::bit_cast<double>(bits[2 * m]), std::bit_cast<double>(bits[2 * m + 1])}, trials[m]});

@@ -16,8 +16,8 @@
 
 namespace carom {
 
-// A box in which disks are placed, whose ranks each have a slab of another one: its lower side lies `up` below that of
-// the box (length).
+// The box in which disks are placed. The ranks' slabs are those of another box, whose lower side is `up` below that of
+// this box (length).
 struct PlacementSite {
   const Scene& scene;
   Domain box;
@@ -28,27 +28,27 @@ struct PlacementSite {
   bool is_own(Vec2 p) const { return cut.rank_at(p.y + up) == ranks.rank(); }
 };
 
-// A trial's point follows from seed, id and trial, and where few places are left from a list of voxels of which each
-// rank has a part; whether it is free of the disks placed before knows the rank in whose slab, or voxels, it lies. What
-// they tell each other is a bit a trial, and points that not all of them know.
+// A trial's point follows from seed, id and trial, and, if few places are left, from a list of voxels of which each
+// rank has a part. Only the rank in whose slab, or voxels, the point lies knows whether it is free of the disks placed
+// before. The ranks exchange a bit a trial, and the points that not all of them know.
 class PlacementTrials {
  public:
-  // All of it outlives this. grid: of all disks placed before that are near this rank's own places.
+  // All arguments outlive this. grid: all disks placed before near this rank's own places.
   PlacementTrials(const PlacementSite& site, const OpenPlaces& places, const PlacementGrid& grid)
       : site_(site), places_(places), grid_(grid) {}
 
-  // For each of these disks, from trial next[m] on, the first that is free; next[m] becomes it. Returns how many of
-  // them, from the first on, have one: a disk with trials_between_lessons in vain has none. in_turn: the disks are
-  // placed next, one after the other, so that those that come after a lesson need none. Collective.
+  // For each of these disks finds the first free trial from next[m] on, and stores it in next[m]. Returns how many of
+  // the disks, from the first on, have one: a disk with trials_between_lessons failed trials has none. in_turn: the
+  // disks are placed next, one after the other, so those that come after a lesson need no trial. Collective.
   std::size_t next_free(const std::vector<DiskToPlace>& disks, std::vector<std::uint64_t>& next, bool in_turn);
 
-  // The places of trials that are free. Collective.
+  // The places of free trials. Collective.
   std::vector<TrialPlace> places_of(const std::vector<DiskToPlace>& disks,
                                     const std::vector<std::uint64_t>& trials) const;
 
  private:
   struct Asked {
-    std::size_t trial;  // of those that are asked about at once
+    std::size_t trial;  // number among those that are exchanged together
     Vec2 point;
     double radius;
   };

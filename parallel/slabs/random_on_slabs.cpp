@@ -25,20 +25,20 @@ namespace carom {
 
 namespace {
 
-// Disks of a batch: so few of all that few of it get into each other's way, and some megabytes on each rank.
+// Disks in a batch: a share of all so small that few of them overlap each other, taking some megabytes on each rank.
 constexpr Count batches = 64;
 constexpr Count smallest_batch = 64, largest_batch = Count{1} << 17;
-// How many more disks than in the mean a slab may get: in standard deviations, and a share.
+// How many more disks than the mean a slab may get: in standard deviations, and as a share.
 constexpr double deviations = 8.0, more_disks = 0.02;
 constexpr double rounding = 1e-9;
-// Where few places are left, a large batch would only get into its own way: a disk for so many voxels.
+// If few places are left, many disks of a large batch would overlap each other: one disk for this number of voxels.
 constexpr std::size_t voxels_per_disk = 256;
 // Packing fraction at which random addition jams (Feder 1980).
 constexpr double most_packed = 0.547;
 
 // For a batch of disks the ranks find the first trials that are free of the disks placed before (PlacementTrials). Then
-// all of them go through the batch in order, as one machine does: a disk takes its first free point that no other of
-// the batch covers. Where one has none left, the ranks look for its next, and go through the batch again.
+// each rank processes the batch in order, as one machine does: a disk takes its first free point that no other disk of
+// the batch covers. If a disk has none left, the ranks find its next ones, and process the batch again.
 class SlabPlacement {
  public:
   SlabPlacement(const Scene& scene, const StartDisks& disks, const SlabCut& cut, double up, Ranks& ranks)
@@ -84,7 +84,8 @@ class SlabPlacement {
     return true;
   }
 
-  // A slab as high as this may get so many of the disks, and sees those of its neighbours that may touch its own.
+  // The most of these disks that a slab of this height may get, together with those of its neighbours that may touch
+  // its own.
   std::size_t most_near(std::size_t disks) const {
     const double height = std::min(site_.box.height, slab_.high - slab_.low + 2.0 * reach());
     const PlacementRoom::Axis up = placement_room(site_.box, sizes_.largest.radius).up;
@@ -133,7 +134,7 @@ class SlabPlacement {
     return list != nullptr ? std::max<std::size_t>(smallest_batch, list->all() / voxels_per_disk) : largest_batch;
   }
 
-  // The next disks of the class, so many or fewer, one at least.
+  // Takes the next disks of the class: at most this number, and at least one.
   void begin_batch(const SizeClass& of, std::size_t most) {
     disks_.erase(disks_.begin(), disks_.begin() + static_cast<std::ptrdiff_t>(points_.size()));
     if (disks_.size() < most) {
@@ -153,7 +154,7 @@ class SlabPlacement {
     return !points_.empty();
   }
 
-  // Leaves the disks from k on to the next batch: it does not matter to which one a disk belongs.
+  // Leaves the disks from k on to the next batch: it does not matter in which batch a disk is.
   void end_batch_at(std::size_t k) {
     points_.resize(k);
     std::erase_if(conflicts_, [k](std::size_t disk) { return disk >= k; });
@@ -161,7 +162,7 @@ class SlabPlacement {
     fill_cells();
   }
 
-  // Those that come after a lesson, if disks stay where they are now.
+  // Leaves the disks after the next lesson to the next batch, if disks keep their present points.
   void end_batch_at_lesson() {
     std::vector<std::uint64_t> trials;
     for (const TrialPlace& place : points_) trials.push_back(place.trial);
@@ -169,14 +170,14 @@ class SlabPlacement {
     if (k < points_.size()) end_batch_at(k);
   }
 
-  // Disk k at p and another one of the batch.
+  // Are disk k at p and another one of the batch apart?
   bool apart(std::size_t k, Vec2 p, std::size_t other) const {
     const double contact = disks_[k].radius + disks_[other].radius;
     const Vec2 at = points_[other].at;
     return !(nearest_distance2({at.x - p.x, at.y - p.y}, site_.box) < contact * contact);
   }
 
-  // By a disk before k in the batch?
+  // Is p covered by a disk before k in the batch?
   bool is_covered(std::size_t k, Vec2 p) const {
     return cells_.any_near(
         p, [&](std::uint32_t other) { return other < k && absent_[other] == 0 && !apart(k, p, other); });
@@ -187,7 +188,7 @@ class SlabPlacement {
     for (std::size_t k = 0; k < points_.size(); ++k) cells_.insert(static_cast<std::uint32_t>(k), points_[k].at);
   }
 
-  // The disks of the batch whose first point one before them covers: each rank looks at those in its slab.
+  // Finds the disks of the batch whose first point a disk before them covers: each rank checks those in its slab.
   void find_conflicts() {
     fill_cells();
     absent_.assign(points_.size(), 0);
@@ -208,7 +209,7 @@ class SlabPlacement {
     points_[k] = to;
   }
 
-  // The next known point of k that none before it covers; false where there is none.
+  // Moves k to its next known point that no disk before it covers; returns false if there is none.
   bool move_on(std::size_t k) {
     for (const TrialPlace& next : later_[k]) {
       if (next.trial <= points_[k].trial || is_covered(k, next.at)) continue;
@@ -218,8 +219,8 @@ class SlabPlacement {
     return false;
   }
 
-  // Goes through the disks in each other's way, in order, from first points on; returns those all of whose known points
-  // are covered, which the others then do not see.
+  // Processes the disks that cover each other's points, in order, beginning at their first points. Returns those all of
+  // whose known points are covered; the others then ignore these.
   std::vector<std::size_t> go_through() {
     // In any order: whether a point is covered does not depend on the order of the disks in a cell.
     for (const auto& [k, places] : later_) move(k, first_points_[k]);
@@ -264,8 +265,8 @@ class SlabPlacement {
     }
   }
 
-  // Places disks of the batch up to a lesson. False where the trials run out, or the slab gets more disks than there is
-  // memory for.
+  // Places the disks of the batch up to a lesson. Returns false if the trials run out, or if the slab gets more disks
+  // than there is memory for.
   bool commit() {
     points_.resize(places_->take_in(placed_, disks_, points_));
     for (std::size_t k = 0; k < points_.size(); ++k) {
@@ -294,7 +295,7 @@ class SlabPlacement {
     return {taken(near_.x, own), taken(near_.y, own), taken(near_.id, own)};
   }
 
-  // The values of these disks, in place of those of all.
+  // The values of these disks, which replace those of all.
   template <class T>
   static std::vector<T> taken(std::vector<T>& column, const std::vector<std::uint32_t>& own) {
     std::vector<T> values;
@@ -310,19 +311,19 @@ class SlabPlacement {
   const SizeFacts& sizes_;
   PlacementOrder order_;
   Slab slab_;
-  Disks near_;  // its own, and those of others that may touch them; stored_ of them are placed
+  Disks near_;  // the slab's own disks, and others that may touch them; stored_ of them are placed
   std::size_t stored_ = 0;
   std::optional<PlacementGrid> grid_;
   std::optional<OpenPlaces> places_;
   std::optional<PlacementTrials> trials_;
   std::size_t placed_ = 0;          // disks of the class
-  std::vector<DiskToPlace> disks_;  // that come next; the first of them, one a point, are the batch
+  std::vector<DiskToPlace> disks_;  // the next disks; the first of them, one for each point, are the batch
   std::vector<TrialPlace> first_points_, points_;
-  // Behind the first point, by disk. Its order, which libraries choose, reaches no bit (go_through).
+  // Free points behind the first one, by disk. The map's order, which libraries choose, affects no bit (go_through).
   std::unordered_map<std::size_t, std::vector<TrialPlace>> later_;
   BatchCells cells_;
   std::vector<std::size_t> conflicts_;
-  std::vector<unsigned char> absent_;  // of the batch, while it is gone through
+  std::vector<unsigned char> absent_;  // of the batch: is the disk without a point at present?
   SharedBits covered_;
 };
 
@@ -332,7 +333,7 @@ bool equally_large(const Scene& scene) {
   });
 }
 
-// Of disks that are equally large.
+// The packing fraction of equally large disks.
 double packing_fraction(const Scene& scene) {
   double covered = 0.0;
   for (const DiskGroup& g : scene.groups) {
@@ -344,7 +345,8 @@ double packing_fraction(const Scene& scene) {
 }  // namespace
 
 double placing_bytes(const Scene& scene) {
-  // Measured with 4 10^6 disks on 4 ranks, at 0.3 and 0.5: where cells and a list of voxels are learnt.
+  // Measured with 4 10^6 disks on 4 ranks, at 0.3 and 0.5; above this packing fraction cells and a list of voxels are
+  // made.
   constexpr double learns_from = 0.39;
   constexpr double bytes = 107.0;
   return !equally_large(scene) || packing_fraction(scene) > learns_from ? bytes : 0.0;

@@ -17,10 +17,10 @@ namespace carom {
 
 namespace {
 
-// Disks that come to rank 0 at a time: some megabytes, so that no rank has a second copy of them all.
+// Disks that come to rank 0 at a time: some megabytes, so that no rank has a second copy of all disks.
 constexpr std::size_t disks_a_piece = std::size_t{1} << 16;
 
-// A piece of the rank's own disks, with what of the state goes with them.
+// A piece of the rank's own disks, with the data of the state that belong to them.
 Bytes piece_of(const State& state, std::size_t begin, std::size_t count) {
   std::vector<MovingDisk> list;
   for (std::size_t i = begin; i < std::min(state.disks.size(), begin + count); ++i) {
@@ -31,10 +31,11 @@ Bytes piece_of(const State& state, std::size_t begin, std::size_t count) {
   return message;
 }
 
-// To all.disks on rank 0; the other ranks leave `all` alone. all: a copy of the part but for its disks.
+// Collects all disks in all.disks on rank 0; the other ranks leave `all` unchanged. all: a copy of the part without
+// disks.
 void gather_disks(Ranks& ranks, const State& part, State* all) {
   const Disks& own = part.disks;
-  // A rank without disks does not show which columns there are.
+  // A rank without disks does not know the columns.
   std::array<double, 3> most{static_cast<double>(own.size()), own.radius.empty() ? 0.0 : 1.0,
                              own.mass.empty() ? 0.0 : 1.0};
   ranks.maximum(most);
@@ -132,7 +133,7 @@ void follow(RankCall call, Ranks& ranks, RankPart& part, const Traffic& before) 
       try {
         return part.step(before);
       } catch (const PhysicsError&) {
-        return;  // rank 0 has it too, and says so
+        return;  // rank 0 catches it too, and reports it
       }
     case RankCall::collect:
       return part.gather(nullptr);
@@ -173,7 +174,7 @@ void follow(RankCall call, Ranks& ranks, RankPart& part, const Traffic& before) 
       return part.release_memory();
     case RankCall::report:
       return static_cast<void>(part.report());
-    // Those that make an engine or end one are follow_lead's.
+    // Calls that make or end an engine are follow_lead's.
     case RankCall::end:
     case RankCall::make:
     case RankCall::begin:

@@ -1,4 +1,5 @@
-// What each rank has of the engine that rank 0 leads (leading_engine.hpp), and what rank 0 can ask of all of them.
+// Each rank's part of the engine that rank 0 leads (leading_engine.hpp), and the calls that rank 0 can make on all
+// ranks.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +20,7 @@
 
 namespace carom {
 
-// What rank 0 says that comes next: which function of the lead, or of its engine, was called there.
+// Rank 0's next call: which function of the lead, or of its engine, was called there.
 enum class RankCall : std::int64_t {
   end,       // RankLead::end
   make,      // make_engine
@@ -27,9 +28,9 @@ enum class RankCall : std::int64_t {
   step,      // Engine::step
   collect,   // state
   lists,     // pieces
-  piece,     // a piece of a list of those
+  piece,     // a piece of one of those lists
   show,      // pieces_at
-  some,      // of these disks: DisksInPieces::visit
+  some,      // some of these disks: DisksInPieces::visit
   overlap,   // max_overlap
   pairs,     // pair_counts
   orders,    // visit_orders
@@ -42,16 +43,16 @@ enum class RankCall : std::int64_t {
   forget,    // Engine::forget_paths
   release,   // release_memory
   report,    // RankLead::report
-  drop       // the engine is gone
+  drop       // the engine is destroyed
 };
 
-// The same on all ranks; only what rank 0 gives counts.
+// Returns rank 0's call on all ranks; the argument of the others does not matter.
 RankCall agree_on(Ranks& ranks, RankCall call);
 
-// A rank's part of the engine, and what its steps took. All calls are collective.
+// A rank's part of the engine, and the cost of its steps. All calls are collective.
 class RankPart {
  public:
-  // threads: of this rank, for what is measured.
+  // threads: of this rank, for measurements.
   RankPart(Ranks& ranks, const Scene& scene, std::unique_ptr<Engine> engine, const Threads& threads)
       : ranks_(ranks), scene_(scene), engine_(std::move(engine)), run_(blocks_on_threads(threads.count)) {}
 
@@ -60,23 +61,23 @@ class RankPart {
 
   StateSums sums() const;
 
-  // Null: only a state with all disks tells how deep they overlap.
+  // Null if only a state with all disks gives the depths of overlaps.
   const SlabCut* cut() const;
   DeepestOverlaps overlaps() const;
 
-  // All disks: to all->disks on rank 0, the other ranks give null; all: a copy of the part but for its disks.
+  // Collects all disks in all->disks on rank 0; the other ranks pass null. all: a copy of the part without disks.
   void gather(State* all) const;
-  // The same at the time that rank 0 gives, which becomes that of the disks.
+  // The same at the time given by rank 0; t becomes the time of the disks.
   void gather_at(double& t, State* all) const;
 
   // Of the disks of all ranks.
   double fastest_within() const;
 
-  // The lists of the state as it is now; until the next step.
+  // Prepares the lists of the present state; they are valid until the next step.
   void share_lists() { lists_ = std::make_unique<SharedLists>(ranks_, engine_->state()); }
   SharedLists& lists() { return *lists_; }
 
-  // The disks of a moment; until the next one, or the next step. Of what is given, that of rank 0 counts.
+  // Shows the disks of a moment, until the next call or the next step. The arguments of rank 0 are used.
   void show(bool within, double t) {
     shown_.reset();
     shown_ = std::make_unique<ShownDisks>(ranks_, *engine_, within, t);
@@ -87,10 +88,10 @@ class RankPart {
   std::optional<std::vector<PairCounts>> shown_pairs() const { return shown_->pair_counts(scene_, *cut(), run_); }
   std::optional<BondPairs> shown_bonds() { return shown_->bond_pairs(scene_, *cut(), run_); }
 
-  // before: what the ranks had said to each other when they began to agree on this step.
+  // before: traffic of the ranks when they began to agree on this step.
   void step(const Traffic& before);
 
-  // Gives back what only steps and looks need.
+  // Frees memory that only steps and analyses need.
   void release_memory();
 
   RankReport report() const;
@@ -106,7 +107,7 @@ class RankPart {
   Traffic in_steps_;
 };
 
-// One call of the lead, on another rank. before: as of RankPart::step.
+// Runs one call of the lead on another rank. before: as for RankPart::step.
 void follow(RankCall call, Ranks& ranks, RankPart& part, const Traffic& before);
 
 }  // namespace carom

@@ -1,4 +1,4 @@
-// How the work of a run lies on its ranks, and what they said to each other for it.
+// The distribution of a run's work on its ranks, and their traffic.
 #pragma once
 
 #include <algorithm>
@@ -9,19 +9,19 @@
 
 namespace carom {
 
-// Of one rank.
+// The load of one rank.
 struct RankLoad {
-  Count disks = 0;       // now
-  Count ghosts = 0;      // of other ranks, in the last step
-  Count peak_bytes = 0;  // the most memory that its process has had so far
-  Traffic in_steps;      // since the engine was made; frames and checkpoints left aside
+  Count disks = 0;       // at present
+  Count ghosts = 0;      // disks of other ranks, in the last step
+  Count peak_bytes = 0;  // the most memory that its process has used so far
+  Traffic in_steps;      // since the engine was made, without frames and checkpoints
 };
 
 struct RankReport {
   Count steps = 0;              // since the engine was made
   std::vector<RankLoad> ranks;  // in order of ranks
 
-  // Most disks of a rank over their mean; 1 without disks.
+  // The most disks of a rank, over their mean; 1 without disks.
   double imbalance() const {
     Count most = 0;
     Count all = 0;
@@ -32,7 +32,7 @@ struct RankReport {
     return all == 0 ? 1.0 : static_cast<double>(most) * static_cast<double>(ranks.size()) / static_cast<double>(all);
   }
 
-  // Of all ranks together.
+  // The sum over all ranks.
   Traffic traffic() const {
     Traffic sum;
     for (const RankLoad& rank : ranks) {

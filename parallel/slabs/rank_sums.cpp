@@ -7,7 +7,7 @@ namespace carom {
 
 namespace {
 
-// Calls visit(number) for all whole numbers that a tally consists of.
+// Calls visit(number) for all whole numbers of a tally.
 template <class Visit>
 void for_each_number(const Domain& box, ImpactTally& tally, Visit&& visit) {
   for (Count* count : {&tally.collisions, &tally.wall_collisions, &tally.loads, &tally.wall_loads, &tally.inaccurate,

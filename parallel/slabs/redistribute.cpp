@@ -15,12 +15,12 @@ namespace carom {
 
 namespace {
 
-// Rows by which slabs are cut: no slab has so many that one row matters.
+// The number of rows by which slabs are cut: so large that one row does not matter for any slab.
 constexpr std::size_t rows = 4096;
-// Disks that all ranks together send to all at a time; of one at least some.
+// Disks that all ranks together send to all at a time, and the least number from each.
 constexpr std::size_t disks_of_all_a_piece = std::size_t{1} << 16;
 constexpr std::size_t least_a_piece = 256;
-// And those that come to rank 0 from each.
+// Disks that come to rank 0 from each rank at a time.
 constexpr std::size_t disks_a_piece = std::size_t{1} << 14;
 
 struct Migrant {
@@ -28,7 +28,8 @@ struct Migrant {
   int to;
 };
 
-// The disks that are in another rank's slab; those for ranks that are no neighbours go down. far: are there any?
+// The disks that are in another rank's slab; those for ranks that are not neighbours go down. far: is there any such
+// disk?
 ForNeighbours leaving(const Ranks& ranks, const SlabCut& cut, const Disks& d, bool& far) {
   ForNeighbours list;
   for (std::uint32_t i = 0; i < d.size(); ++i) {
@@ -41,7 +42,7 @@ ForNeighbours leaving(const Ranks& ranks, const SlabCut& cut, const Disks& d, bo
   return list;
 }
 
-// most: of any rank.
+// most: the largest number on any rank.
 void send_through_all(Ranks& ranks, const SlabCut& cut, const std::vector<std::uint32_t>& list, std::size_t most,
                       DiskColumns columns, State& state) {
   const std::size_t piece = std::max(least_a_piece, disks_of_all_a_piece / static_cast<std::size_t>(ranks.count()));
@@ -99,7 +100,7 @@ void redistribute(Ranks& ranks, const SlabCut& cut, DiskColumns columns, State& 
   send_through_all(ranks, cut, list.below, most, columns, state);
 }
 
-// A radius or a mass that the others do not share becomes a column on every rank, whichever has the newcomer.
+// A radius or a mass that differs from the others' becomes a column on every rank, whichever has the newcomer.
 void take_newcomers(const SlabCut& cut, int rank, const Disks& newcomers, bool are_first, DiskColumns& columns,
                     Disks& own) {
   if (are_first && !newcomers.empty() && !columns.radius && !columns.mass) {

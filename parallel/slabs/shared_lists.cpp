@@ -12,12 +12,12 @@ namespace carom {
 
 namespace {
 
-// Disks of all ranks in a piece, where they come as they are stored: half a megabyte of a column.
+// Disks of all ranks in a piece, in a list in order of storage: half a megabyte of a column.
 constexpr std::size_t disks_a_piece = std::size_t{1} << 16;
-// At least of each rank.
+// The least number from each rank.
 constexpr std::size_t least_of_rank = 1024;
 
-// What rank 0 asks for.
+// The piece that rank 0 asks for.
 struct AskedPiece {
   StateList list = StateList::x;
   std::size_t number = 0;
@@ -38,7 +38,7 @@ struct ById {
 }  // namespace
 
 SharedLists::SharedLists(Ranks& ranks, const State& own) : ranks_(ranks), own_(own) {
-  // A rank without disks does not show which columns there are.
+  // A rank without disks does not know the columns.
   const Disks& d = own.disks;
   std::array<double, 4> most{static_cast<double>(d.size()), d.radius.empty() ? 0.0 : 1.0, d.mass.empty() ? 0.0 : 1.0,
                              own.loads.empty() ? 0.0 : 1.0};
@@ -94,7 +94,7 @@ Bytes SharedLists::piece(StateList list, std::size_t number) {
   return some_disks(which, k);
 }
 
-// A column of the disks that are next on each rank. Those of a rank that share their radius or mass have no column.
+// A column of the next disks on each rank. A rank whose disks share their radius or mass has no such column.
 Bytes SharedLists::some_disks(StateList list, std::size_t number) const {
   const Disks& d = own_.disks;
   const std::size_t begin = std::min(d.size(), number * at_once_);
@@ -111,7 +111,7 @@ Bytes SharedLists::some_disks(StateList list, std::size_t number) const {
   return all;
 }
 
-// Those of contacts whose smaller id is in the piece. Of one across a border both ranks have them.
+// The loads of contacts whose smaller id is in the piece. Both ranks have that of a contact across a border.
 Bytes SharedLists::some_loads(std::size_t number) const {
   const auto from = [&](std::size_t id) {
     return std::lower_bound(own_.loads.begin(), own_.loads.end(), id,
@@ -124,7 +124,7 @@ Bytes SharedLists::some_loads(std::size_t number) const {
   return bytes_of(std::span<const ContactLoad>(all));
 }
 
-// Every rank has entries for all ids; those of its own disks are right.
+// Every rank has entries for all ids; only those of its own disks are right.
 template <class Value>
 Bytes SharedLists::some_by_id(const std::vector<Value>& values, std::size_t number) {
   if (!by_id_) by_id_.emplace(own_.disks, id_pieces(own_.next_id));

@@ -1,5 +1,5 @@
-// The lists of the state of all ranks together, on rank 0, a piece at a time, so that no rank has them whole: what a
-// checkpoint is written from (core/disks/state_pieces.hpp).
+// The lists of the state of all ranks together, on rank 0, a piece at a time, so that no rank has them whole: a
+// checkpoint is written from them (core/disks/state_pieces.hpp).
 #pragma once
 
 #include <cstddef>
@@ -14,16 +14,16 @@ namespace carom {
 
 class SharedLists {
  public:
-  // own: the state of this rank, with its own disks alone; it outlives this and stays as it is. Collective.
+  // own: the state of this rank, with only its own disks; it outlives this and does not change. Collective.
   SharedLists(Ranks& ranks, const State& own);
 
-  // In how many pieces a list comes, and, of all but loads, how many entries it has; on rank 0.
+  // The number of pieces of a list, and of its entries, except for loads; on rank 0.
   std::size_t pieces(StateList list) const;
   Count entries(StateList list) const;
 
-  // The entries of a piece on rank 0, as they lie in memory; nothing on the others. Collective; what rank 0 asks for
-  // counts. Disks come as they are stored, some of each rank in turn, what goes by id or contact in that order: the
-  // order in which rank 0 would have them, had it gathered all.
+  // The entries of a piece on rank 0, as they are in memory; nothing on the others. Collective; the arguments of rank 0
+  // are used. Columns of disks come in order of storage, some disks of each rank in turn, and what is stored by id or
+  // by contact in that order: rank 0 would have the same order if it had gathered everything.
   Bytes piece(StateList list, std::size_t number);
 
  private:
@@ -34,11 +34,11 @@ class SharedLists {
 
   Ranks& ranks_;
   const State& own_;
-  DiskColumns columns_;      // of the disks of all ranks
-  Count disks_ = 0;          // of all ranks
-  std::size_t most_ = 0;     // disks of a rank
+  DiskColumns columns_;      // of all ranks
+  Count disks_ = 0;          // on all ranks
+  std::size_t most_ = 0;     // the largest number of a rank
   bool any_loads_ = false;   // on any rank
-  std::size_t at_once_ = 0;  // disks of a rank in a piece
+  std::size_t at_once_ = 0;  // disks of each rank in a piece
   std::optional<IdPieces> by_id_;
 };
 

@@ -1,5 +1,5 @@
-// The disks of all ranks at a moment of the last step, which rank 0 looks at piece by piece. All calls are collective;
-// of what is asked, that of rank 0 counts.
+// The disks of all ranks at a moment of the last step, which rank 0 reads piece by piece. All calls are collective; the
+// arguments of rank 0 are used.
 #pragma once
 
 #include <optional>
@@ -17,21 +17,21 @@ namespace carom {
 
 class ShownDisks {
  public:
-  // engine: of this rank; it makes no step as long as this is there. within: at time t within the step, which it knows;
-  // otherwise, at the end of it.
+  // engine: of this rank; it makes no step while this exists. within: the moment is time t within the step, whose paths
+  // the engine keeps; otherwise it is the step's end.
   ShownDisks(Ranks& ranks, const Engine& engine, bool within, double t);
 
   double time() const { return time_; }
   Count size() const { return ordered_->size(); }
 
-  // Calls use() for piece after piece in order of id, on rank 0 alone. It must not throw.
+  // Calls use() for piece after piece in order of id, only on rank 0. use() must not throw.
   void visit(const DisksInPieces::Use& use);
 
-  // The largest of two disks, over the sum of their radii.
+  // The largest overlap of two disks, over the sum of their radii.
   double max_overlap(const Scene& scene, const SlabCut& cut) const;
 
-  // The same of what visit_orders() has of them (core/disks/disks_in_pieces.hpp). False, on all ranks, where there is
-  // no such thing.
+  // Calls use() in the same way for the disks with their bond order, as visit_orders() in
+  // core/disks/disks_in_pieces.hpp. Returns false, on all ranks, if that is not available.
   bool visit_orders(const Scene& scene, const SlabCut& cut, const BlockRunner& run, const DisksInPieces::Use& use);
 
   // See slab_pairs.hpp.
@@ -44,12 +44,12 @@ class ShownDisks {
   bool find_orders(const Scene& scene, const SlabCut& cut, const BlockRunner& run);
 
   Ranks& ranks_;
-  DiskId ids_ = 0;  // above all of this rank
+  DiskId ids_ = 0;  // above all ids on this rank
   double time_ = 0.0;
-  Disks then_;  // of a moment within the step
+  Disks then_;  // at a moment within the step
   const Disks* own_ = nullptr;
   std::optional<OrderedDisks> ordered_;
-  std::optional<Disks> orders_;  // of this rank's disks, once asked for
+  std::optional<Disks> orders_;  // bond order of this rank's disks, once asked for
 };
 
 }  // namespace carom

@@ -19,13 +19,13 @@ struct SlabCut {
   double low(int rank) const { return bounds[static_cast<std::size_t>(rank)]; }
   double high(int rank) const { return bounds[static_cast<std::size_t>(rank) + 1]; }
   double thinnest() const;
-  // The rank that has a centre at this height; below the box the first one, above it the last.
+  // The rank whose slab has a centre at this height; below the box the first one, above it the last.
   int rank_at(double y) const;
-  // True only if that is this rank, and quickly; not of what lies outside the box.
+  // True only if that is this rank; a fast test, which is false outside the box.
   bool is_between_bounds(int rank, double y) const { return y >= low(rank) && y < high(rank); }
 };
 
-// An engine whose disks are in slabs, but for what they have moved since they were shared out.
+// An engine whose disks are in slabs, except for their motion since they were distributed.
 class InSlabs {
  public:
   InSlabs() = default;
@@ -34,28 +34,29 @@ class InSlabs {
   virtual ~InSlabs() = default;
   // The same on all ranks; null while the disks are not in slabs.
   virtual const SlabCut* slab_cut() const = 0;
-  // This rank's disks; no state is made of them.
+  // The number of this rank's disks, without making a state of them.
   virtual Count own_disks() const = 0;
-  // Disks of other ranks that this one had beside its own in the last step; 0 while the disks are not in slabs.
+  // The number of other ranks' disks that this one had as ghosts in the last step; 0 while the disks are not in slabs.
   virtual Count ghosts() const = 0;
 };
 
-// A slab has to be so much thicker than the largest radius: disks of the slabs on either side of it never touch, as far
-// as any may leave its own slab before it goes to the next rank.
-inline constexpr double least_thickness = 4.0;  // radii
+// The least thickness of a slab, in largest radii. With it disks of the slabs on either side of a slab never touch, as
+// far as any disk may leave its own slab before it moves to the next rank.
+inline constexpr double least_thickness = 4.0;
 
-// Slabs with about as many disks each, no thinner than least (length). Precondition: ranks >= 1, ranks * least <=
-// height.
+// Slabs with about the same number of disks each, no thinner than least (length). Preconditions: ranks >= 1, ranks *
+// least <= height.
 SlabCut cut_into_slabs(const Domain& box, const Disks& disks, int ranks, double least);
 
-// The same from how many disks there are in rows that divide the box's height evenly, in order of heights; slabs may be
-// as thin as they come. Precondition: there are rows.
+// The same from the numbers of disks in rows of equal height, from the bottom of the box up; slabs may be of any
+// thickness. Precondition: there are rows.
 SlabCut cut_by_rows(const Domain& box, const std::vector<std::int64_t>& disks_of_row, int ranks);
 
 // Moves bounds until no slab is thinner. Precondition: as above.
 void keep_thick(SlabCut& cut, double least);
 
-// How far a disk may leave its slab, and others still find all that touch it one slab further; length.
+// The largest distance that a disk may leave its slab by so that all disks that touch it are still at most one slab
+// further; length.
 inline double room_beyond(const SlabCut& cut, double largest_radius) {
   return 0.5 * (cut.thinnest() - 2.0 * largest_radius);
 }

@@ -16,22 +16,22 @@ namespace carom {
 
 namespace {
 
-// How far from a disk that is not known others may come to be unknown within a slice, in mean spacings; more where it
-// proves to be too little. The border zone that docs/scaling.md measures.
+// The width of the border zone that docs/scaling.md measures, in mean spacings: up to this distance from a disk that
+// the rank does not have, the motion of others may become unknown within a slice. It grows if it proves too small.
 constexpr double usual_zone = 10.0;
 constexpr double usual_zone_of_cut_work = 5.0;
-constexpr double zone_of_retry = 1.5;  // over that of the try before
-// Of the depth at which ghosts are chosen, the share that has to be left when they are chosen anew is a little less
-// than one over this.
+constexpr double zone_of_retry = 1.5;  // factor after a try in vain
+// The depth at which ghosts are chosen is this factor times the depth needed: new ghosts are due when a little less
+// than one over it is left.
 constexpr double depth_in_reserve = 1.45;
-// Disks that a rank does not have are taken to come nearer in a window by this share of how far the fastest disk could
-// go; by more where they did, and by less again after windows in which they did not.
+// Disks that a rank does not have are assumed to come nearer in a window by this share of the fastest disk's flight; by
+// more after they have, and by less again after windows in which they have not.
 constexpr double usual_approach = 0.5;
 constexpr double approach_of_retry = 1.5;
 constexpr double approach_after_window = 0.99;
-// Of its thickness a slab shows its neighbours so much at most.
+// A slab shows its neighbours at most this share of its thickness.
 constexpr double most_shown = 0.9;
-// Where slabs would be too thin, or a window was crowded, one rank runs so many.
+// The number of windows that one rank runs if slabs would be too thin, or a window was crowded.
 constexpr int windows_alone_if_thin = 64;
 constexpr int windows_alone_if_crowded = 16;
 
@@ -88,7 +88,7 @@ const SlabCut* SlabExact::slab_cut() const {
   return !lone_.runs() && thick && left_ <= room_beyond(cut_, start_.largest_radius) ? &cut_ : nullptr;
 }
 
-// Rank 0 gets all disks for so many windows.
+// Rank 0 gets all disks for this number of windows.
 void SlabExact::run_alone(int windows) {
   ghosts_.drop(state_);
   windows_.release_memory();
@@ -106,7 +106,7 @@ SpeedSummary SlabExact::speeds_of_all() const {
   return summarise_speeds(tally, start_.disks);
 }
 
-// False: slabs cannot run it, and rank 0 has all disks now.
+// Returns false if slabs cannot run the window; rank 0 has all disks then.
 bool SlabExact::run_window(WindowPlan& plan, const SpeedSummary& speeds) {
   double margin = speed_margin;
   for (int retries = 0; retries < most_retries;) {
@@ -145,8 +145,8 @@ void SlabExact::warn_of_thin_slabs() {
                   ranks_.count(), state_.time));
 }
 
-// Shares the disks out among the ranks, with new ghosts, and lists them, when on any rank that is due. False: slabs
-// would be too thin.
+// If it is due on any rank, distributes the disks among the ranks, with new ghosts, and lists them. Returns false if
+// slabs would be too thin.
 bool SlabExact::prepare_lists(const WindowPlan& plan, double fastest) {
   bool due = windows_.lists_due(plan);
   if (ranks_.any(due)) return share_out(plan, fastest);
@@ -171,13 +171,13 @@ bool SlabExact::share_out(const WindowPlan& plan, double fastest) {
   return true;
 }
 
-// A little more than the fastest disk goes, so that rounding does not matter.
+// A little more than the fastest disk's flight, so that rounding does not matter.
 Approach SlabExact::approach_in(const WindowPlan& plan, double fastest) const {
   const double furthest = fastest * plan.length * (1.0 + 1e-6) + 1e-12 * scene_.box.height;
   return {furthest, approach_ * furthest, cut_.thinnest()};
 }
 
-// None: slabs are too thin. Windows may be twice as long by the time of the next ghosts.
+// Nothing if slabs are too thin. Windows may have become twice as long when new ghosts are due.
 std::optional<double> SlabExact::ghost_depth(const WindowPlan& plan, double fastest) const {
   const Domain& box = scene_.box;
   const double spacing = std::sqrt(box.width * box.height / static_cast<double>(std::max<Count>(1, start_.disks)));
@@ -203,7 +203,7 @@ void SlabExact::finish(const WindowPlan& plan) {
   const bool any_gone = remove_gone();
   if (any_gone) at_start_ = std::move(at_start);
   sum_over_ranks(ranks_, scene_.box, tally);
-  // Here, as finish_window knows of this rank alone.
+  // Counted here, since finish_window knows only this rank.
   if (any_gone) count_taken_on_ranks(ranks_, std::exchange(tally.taken, {}), state_.taken);
   finish_window(state_, start_.disks, plan, tally);
   StepFigures figures;
@@ -241,7 +241,7 @@ double SlabExact::disks_at(double t, Disks& out) const {
   return at;
 }
 
-// Is a disk of the last window this rank's own?
+// Returns a function that says whether a disk of the last window is this rank's own.
 std::function<bool(std::uint32_t)> SlabExact::owned() const {
   const bool any_left = !at_start_.ghosts.empty();
   return [this, any_left](std::uint32_t i) { return any_left ? at_start_.ghosts[i] == 0 : !ghosts_.is_ghost(i); };
@@ -253,7 +253,7 @@ double SlabExact::fastest_within() const {
   return fastest_of_window(windows_.scheduler(), owned());
 }
 
-// Those across a border are on the rank of the disk with the smaller id.
+// A contact across a border is on the rank of the disk with the smaller id.
 std::vector<DiskContact> SlabExact::contacts() const {
   if (lone_.runs()) return lone_.contacts();
   if (!windows_.window().keeps_paths || !logged_) return {};

@@ -1,4 +1,4 @@
-// One rank's part of `exact` on slabs: its windows, and which disks it has.
+// One rank's part of `exact` on slabs: its windows and its disks.
 #pragma once
 
 #include <cstdint>
@@ -24,13 +24,13 @@
 
 namespace carom {
 
-// The disks of a window as they were stored in it; ghosts: an entry for each, 1 for those.
+// The disks of a window in its storage order; ghosts: an entry for each, 1 for ghosts.
 struct WindowDisks {
   Disks disks;
   std::vector<unsigned char> ghosts;
 };
 
-// As make_slab_exact_part (slab_exact.hpp) says. Precondition: slabs know the scene, and there are several ranks.
+// See make_slab_exact_part (slab_exact.hpp). Preconditions: slabs support the scene, and there are several ranks.
 class SlabExact final : public Engine, public InSlabs {
  public:
   SlabExact(const Scene& scene, State part, const SlabStart& start, const Threads& threads, Ranks& ranks);
@@ -85,17 +85,17 @@ class SlabExact final : public Engine, public InSlabs {
   ExactGhosts ghosts_;
   WindowRun windows_;
   LoneRank lone_;
-  int alone_ = 0;  // windows that one rank has still to run
+  int alone_ = 0;  // windows that one rank still has to run
   const double first_zone_;
   double zone_;             // mean spacings
-  double approach_;         // share of the furthest flight by which disks of others are taken to come nearer
-  bool thin_told_ = false;  // that slabs would be too thin
-  const bool takes_;        // sinks do
+  double approach_;         // share of the largest flight by which other ranks' disks are assumed to come nearer
+  bool thin_told_ = false;  // has it been reported that slabs would be too thin?
+  const bool takes_;        // are there sinks?
   std::optional<WindowPlan> logged_;
   std::vector<unsigned char> gone_;
-  WindowDisks at_start_;  // where disks left through sinks in the last window; else empty
+  WindowDisks at_start_;  // if disks left through sinks in the last window; else empty
   std::vector<std::string> warnings_;
-  mutable std::optional<State> own_;  // since it was asked for after the last step
+  mutable std::optional<State> own_;  // if it was asked for after the last step
 };
 
 }  // namespace carom

@@ -1,4 +1,4 @@
-// What happens between two windows of `exact` on slabs: disks come from sources, leave through sinks, and are kicked.
+// Changes between two windows of `exact` on slabs: disks come from sources, leave through sinks, and are kicked.
 #include <utility>
 
 #include "core/step/source.hpp"
@@ -13,7 +13,7 @@
 
 namespace carom {
 
-// What is drawn for a disk, its rank and those that see it as a ghost draw alike.
+// The numbers drawn for a disk are the same on its rank and on those that have it as a ghost.
 void SlabExact::start_window() {
   const PhaseTimer timer(times_, "start");
   if (!scene_.sources.empty()) emit();
@@ -34,8 +34,8 @@ void SlabExact::start_window() {
   if (is_kick_due(scene_, state_)) kick();
 }
 
-// All ranks draw the same newcomers, and ask each other whether one meets a disk. Until then the state has the
-// newcomers alone.
+// All ranks draw the same newcomers, and ask each other whether one overlaps a disk. Until then only the newcomers are
+// in the state.
 void SlabExact::emit() {
   Disks here = no_disks_like(state_.disks);
   std::swap(here, state_.disks);
@@ -58,8 +58,8 @@ void SlabExact::emit() {
   windows_.forget(Known::nothing);
 }
 
-// Of the disks marked in gone_, if it is not empty, those of all ranks count. Returns whether any left; ghosts have
-// left with them.
+// Counts the disks marked in gone_, if it is not empty, over all ranks. Returns whether any left; ghosts have left with
+// them.
 bool SlabExact::remove_gone() {
   if (!takes_) return false;
   std::int64_t gone = 0;

@@ -11,12 +11,12 @@
 
 namespace carom {
 
-// In a liquid six are within two mean distances.
+// In a liquid the nearest six disks are within two mean distances.
 double first_reach(const Domain& box, Count disks) {
   return 3.0 * std::sqrt(box.width * box.height / static_cast<double>(disks));
 }
 
-// Neighbours are looked for twice as far as long as a disk of any rank has too few.
+// The search distance is doubled as long as a disk of any rank has too few neighbours.
 std::optional<Disks> orders_over_ranks(Ranks& ranks, const AnalysisPlan& plan, const Domain& box, const Disks& all,
                                        const SlabCut& cut, const BlockRunner& run) {
   const Disks some = plan.group.empty() ? Disks{} : disks_of(all, plan.ids);

@@ -1,4 +1,4 @@
-// psi6 of the disks of all ranks, of which none has all.
+// psi6 of the disks of all ranks, none of which has all disks.
 #pragma once
 
 #include <optional>
@@ -12,12 +12,13 @@
 
 namespace carom {
 
-// This rank's disks, as with_orders: those that the plan measures. Absent, on all ranks, where a disk's six neighbours
-// may be of ranks that are no neighbours. box: at the time of the disks. run: on the threads of this rank. Collective.
+// As with_orders, for those of this rank's disks that the plan measures. Nothing, on all ranks, if a disk's six
+// neighbours may belong to ranks that are not neighbours. box: at the time of the disks. run: on the threads of this
+// rank. Collective.
 std::optional<Disks> orders_over_ranks(Ranks& ranks, const AnalysisPlan& plan, const Domain& box, const Disks& own,
                                        const SlabCut& cut, const BlockRunner& run = run_in_order);
 
-// How far neighbours are looked for at first, with so many disks; length.
+// The first search distance for neighbours among this number of disks; length.
 double first_reach(const Domain& box, Count disks);
 
 }  // namespace carom

@@ -19,9 +19,9 @@ void add_times(PairNumbers& sum, const PairNumbers& numbers, std::int64_t times)
   for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += times * numbers[k];
 }
 
-// Those of the disks of all ranks, of pairs that are no further apart than reach (length). A pair of two ranks is one
-// of the disks at their border, and is found on both: so all that lies within a slab counts twice as well, and half of
-// the sum is what there is. Its disks are there twice, too.
+// The sums for the disks of all ranks, over pairs that are no further apart than reach (length). A pair of two ranks
+// consists of disks at their border, and is found on both of them: so everything within a slab is also counted twice,
+// and the result is half of the sum. The disks themselves are counted twice, too.
 std::optional<PairNumbers> numbers_over_ranks(Ranks& ranks, const Domain& box, const Disks& own, const SlabCut& cut,
                                               double reach,
                                               const std::function<PairNumbers(const Disks&)>& numbers_of) {

@@ -1,4 +1,4 @@
-// Pairs by distance of the disks of all ranks, of which none has all.
+// Pairs by distance of the disks of all ranks, none of which has all disks.
 #pragma once
 
 #include <optional>
@@ -14,14 +14,14 @@
 
 namespace carom {
 
-// What pairs_of_plan finds among all disks. Absent where the plan asks for no pairs, and where slabs are so thin that a
-// pair may be of two ranks that are no neighbours. box: at the time of the disks. run: on the threads of this rank.
+// The result of pairs_of_plan for all disks. Nothing if the plan has no pairs, or if slabs are so thin that a pair may
+// belong to two ranks that are not neighbours. box: at the time of the disks. run: on the threads of this rank.
 // Collective.
 std::optional<std::vector<PairCounts>> pairs_over_ranks(Ranks& ranks, const AnalysisPlan& plan, const Domain& box,
                                                         const Disks& own, const SlabCut& cut, const BlockRunner& run);
 
-// The same of bond_pairs, where the plan asks for the bond correlation and there are seven disks or more. orders: of
-// this rank (slab_orders.hpp).
+// The same for bond_pairs, if the plan has the bond correlation and there are at least seven disks. orders: of this
+// rank (slab_orders.hpp).
 std::optional<BondPairs> bond_pairs_over_ranks(Ranks& ranks, const AnalysisPlan& plan, const Domain& box,
                                                const Disks& orders, const SlabCut& cut, const BlockRunner& run);
 

@@ -1,5 +1,5 @@
-// Piles on slabs: the contacts of a step in rounds that ranks take together (border_rounds.hpp), and whether resolving
-// them has pressed disks of different slabs together.
+// Piles on slabs: the contacts of a step in rounds that ranks process together (border_rounds.hpp), and the check
+// whether resolving them has pressed disks of different slabs together.
 #include <algorithm>
 #include <array>
 
@@ -12,7 +12,7 @@ namespace carom {
 
 namespace {
 
-// Disks that a rank sends to all at a time.
+// Disks that a rank sends to all ranks at a time.
 constexpr std::size_t disks_a_piece = std::size_t{1} << 14;
 
 }  // namespace
@@ -26,7 +26,7 @@ double SlabStepping::settle_here(const StepRules& rules, ImpactTally& tally) {
   return settle_with(state_, rules, found_, ghosts_.own(), executor_, lists_, tally, others);
 }
 
-// Disks of two slabs are asked about on both ranks, each knowing which of its own were displaced.
+// Pairs of disks of two slabs are checked on both ranks, each of which knows which of its own disks were displaced.
 bool SlabStepping::presses_others() {
   if (disks_ == 0) return false;
   const PhaseTimer timer(times_, "resolve");
@@ -40,8 +40,8 @@ bool SlabStepping::presses_others() {
   return ranks_.any(presses_disks_of_others(excursion_ + most[0], slack));
 }
 
-// Is a displaced disk of another rank pressed into one of this rank? excursion: how far any disk may have left its
-// slab; slack: how far one of this rank may have left its cell; length.
+// Is a displaced disk of another rank pressed into one of this rank? excursion: the largest distance of any disk from
+// its slab; slack: that of a disk of this rank from its cell; length.
 bool SlabStepping::presses_disks_of_others(double excursion, double slack) {
   if (excursion <= room_beyond(cut_, largest_radius_)) {
     std::vector<std::uint32_t>& near = displaced_.all;
@@ -49,7 +49,7 @@ bool SlabStepping::presses_disks_of_others(double excursion, double slack) {
     const SeenBeyond theirs = exchange_seen(ranks_, seen_);
     return is_pressed_by(theirs.below, slack) || is_pressed_by(theirs.above, slack);
   }
-  // So far that they may touch disks beyond the next slab: all ranks ask about all of them.
+  // Disks are so far from their slabs that they may touch disks beyond the next slab: all ranks check all of them.
   auto most = static_cast<double>(displaced_.all.size());
   ranks_.maximum({&most, 1});
   bool pressed = false;
@@ -68,7 +68,8 @@ bool SlabStepping::presses_disks_of_others(double excursion, double slack) {
   return pressed;
 }
 
-// Is one of these disks, of another rank, pressed into one of this rank? Behind those while they are asked about.
+// Is one of these disks, of another rank, pressed into one of this rank? They are stored behind the own disks
+// meanwhile.
 bool SlabStepping::is_pressed_by(const std::vector<Disk>& disks, double slack) {
   const std::size_t own = state_.disks.size();
   for (const Disk& disk : disks) push_back(state_.disks, disk, columns_);

@@ -1,4 +1,4 @@
-// Which disks a rank has: those that come from sources, leave through sinks, and go to another slab.
+// The disks of a rank: disks come from sources, leave through sinks, and move to another slab.
 #include <algorithm>
 #include <utility>
 
@@ -18,17 +18,18 @@ namespace carom {
 
 namespace {
 
-// Slabs are cut anew where one has so many times its share of the disks, and so many more: rows of cells are whole.
+// Slabs are cut anew if one has more than this factor times its share of the disks, and more by this number: rows of
+// cells are not divided.
 constexpr double uneven_share = 1.1;
 constexpr double uneven_disks = 64.0;
 
-// A disk on its way to another rank.
+// A disk that moves to another rank.
 struct Migrant {
   Disk disk;
   std::uint32_t thermal_hits;
 };
 
-// Those that leave by one border, with the loads that they bear.
+// The disks that leave by one border, with their loads.
 struct Migrants {
   std::vector<Migrant> list;
   std::vector<DiskId> ids;
@@ -49,8 +50,8 @@ struct Migrants {
 
 }  // namespace
 
-// All ranks draw the same newcomers, and ask each other whether one meets a disk; each takes those in its slab. Until
-// then the state has the newcomers alone.
+// All ranks draw the same newcomers, and ask each other whether one overlaps a disk; each takes those in its slab.
+// Until then only the newcomers are in the state.
 void SlabStepping::emit_from_sources(double t, Count step) {
   bool due = false;
   for (std::size_t s = 0; s < scene_.sources.size(); ++s) {
@@ -89,7 +90,7 @@ void SlabStepping::remove_at_sinks() {
   remove_gone();
 }
 
-// The marked disks of all ranks.
+// Removes the marked disks on all ranks.
 void SlabStepping::remove_gone() {
   auto marked = static_cast<std::int64_t>(std::count(gone_.begin(), gone_.end(), 1));
   const bool here = marked > 0;
@@ -103,7 +104,8 @@ void SlabStepping::remove_gone() {
   sort_due_ = true;
 }
 
-// The pairs found name disks in the order of storage before disks left, and ghosts may have left on their own ranks.
+// The pairs found refer to disks in the order of storage before disks left, and ghosts may have left on their own
+// ranks.
 void SlabStepping::keep_contacts_of_those_that_stay() {
   std::vector<DiskId> leaving;
   for (std::size_t i = 0; i < gone_.size(); ++i) {
@@ -124,7 +126,8 @@ void SlabStepping::keep_contacts_of_those_that_stay() {
   closed_up_ = true;
 }
 
-// Slabs with as many disks each as there can be, where one has more than its share: disks fall, or come from sources.
+// If one slab has more than its share, since disks fall or come from sources, cuts slabs with as equal numbers of disks
+// as possible.
 void SlabStepping::cut_anew_if_uneven() {
   if (ranks_.count() == 1) return;
   auto most = static_cast<double>(state_.disks.size());
@@ -139,14 +142,14 @@ void SlabStepping::cut_anew_if_uneven() {
   make_cells(counts);
 }
 
-// Each disk to the rank whose slab it is in: a neighbour, but for what another disk has sent far, and where slabs are
-// cut anew. Those go on through the neighbours; where many leave, some at a time.
+// Sends each disk to the rank whose slab it is in. That is a neighbour, unless another disk has thrown it far or slabs
+// are cut anew: then it moves on through the neighbours. If many disks leave, they are sent some at a time.
 void SlabStepping::migrate() {
   while (ranks_.any(migrate_to_neighbours())) continue;
 }
 
-// Is one of the rank's disks not yet where it belongs? Those that are stored last take the places of those that leave:
-// all are sorted next.
+// Returns whether one of the rank's disks is not yet where it belongs. Disks that are stored last take the places of
+// those that leave, since all are sorted next.
 bool SlabStepping::migrate_to_neighbours() {
   Disks& d = state_.disks;
   Migrants down;
@@ -173,7 +176,7 @@ bool SlabStepping::migrate_to_neighbours() {
   return !all_at_home;
 }
 
-// Do all of them belong here?
+// Returns whether all of them belong here.
 bool SlabStepping::take_in(const Bytes& migrants) {
   MessageReader reader(migrants);
   std::vector<DiskId> ids;

@@ -19,10 +19,10 @@ namespace carom {
 
 namespace {
 
-// Rows by whose disks slabs are cut.
+// The number of rows whose disks are counted to cut slabs.
 constexpr std::size_t rows_counted = 4096;
 
-// What of the scene slabs do not know; empty: they know all of it.
+// The feature of the scene that slabs do not support; empty if there is none.
 std::string unknown_to_slabs(const Scene& scene) {
   if (scene.run.method != Method::exact) return "";
   if (scene.box.shear.acts()) return "a shear flow";
@@ -40,7 +40,7 @@ std::string why_alone(const Scene& scene, double largest, int ranks) {
   const std::string unknown = unknown_to_slabs(scene);
   if (!unknown.empty()) return fmt::format("exact on slabs does not know {} yet", unknown);
   const double least = least_thickness * largest;
-  // Those of exact are asked for their thickness in each window.
+  // For exact, the thickness is checked in each window.
   if (is_exact || ranks == 1 || least * ranks <= scene.box.height) return "";
   return fmt::format(
       "{} slabs of a box {:g} high would be thinner than two diameters of the largest disk, whose radius "
@@ -138,7 +138,7 @@ Disks deal_out(Ranks& ranks, const SlabStart& start, DiskSource* all, Disks part
   truncate(part, 0);
   const auto expected = static_cast<std::size_t>(start.disks) / static_cast<std::size_t>(ranks.count());
   reserve(part, expected + expected / 32, start.columns);
-  // Some at a time, so that no rank has a second copy of them all.
+  // Some at a time, so that no rank has a second copy of all disks.
   for (std::size_t begin = 0; begin < start.disks; begin += disks_of_a_read) {
     std::vector<Disk> piece;
     if (all != nullptr) {

@@ -1,4 +1,4 @@
-// What every rank has to know of all disks together to take its part of them.
+// What every rank must know of all disks together before it takes its part of them.
 #pragma once
 
 #include <cstddef>
@@ -19,10 +19,10 @@ struct SlabStart {
   SlabCut cut;
   DiskColumns columns;
   double smallest_radius = 0.0;     // of all disks; length
-  double largest_radius = 0.0;      // those that sources may bring too
-  std::vector<std::size_t> counts;  // of disks of each class of radii
+  double largest_radius = 0.0;      // also of those that sources may bring
+  std::vector<std::size_t> counts;  // of disks, for each class of radii
   Count disks = 0;
-  // Why one rank has to run the scene (lone_rank.hpp); empty: slabs do.
+  // Why one rank has to run the scene (lone_rank.hpp); empty if slabs run it.
   std::string alone;
 };
 
@@ -32,24 +32,24 @@ void check_ranks_know(Method method);
 // Precondition: check_ranks_know(scene.run.method).
 SlabStart slab_start(const Scene& scene, const Disks& all, int ranks);
 
-// The same of disks that come some at a time; its slabs differ a little. Reads them once, or twice where radii differ.
+// The same for disks that come in pieces; the slabs differ a little. Reads the disks once, or twice if radii differ.
 SlabStart slab_start(const Scene& scene, DiskSource& all, int ranks);
 
-// The same before it is known where the disks are: without a cut, and how many there are of each class. Radii: of all
-// disks that there are.
+// The same before it is known where the disks are: without a cut, and without the numbers of each class. smallest,
+// largest: radii of all disks at the start.
 SlabStart slab_start(const Scene& scene, DiskColumns columns, double smallest, double largest, Count disks, int ranks);
 
-// How thick each slab has to be; length.
+// The least thickness of each slab; length.
 double thinnest_slab(const Scene& scene, const SlabStart& start);
 
 Bytes message_of(const SlabStart& start);
 SlabStart slab_start_of(const Bytes& message);
 
-// Each rank takes the disks in its slab of all that rank 0 has, or reads. all: null on the other ranks. part: what
-// disks share, as columns that are not there; its own disks go. Collective.
+// Each rank takes the disks in its slab from all disks, which rank 0 has or reads. all: null on the other ranks. part:
+// the radius and mass that disks share, as columns that are absent; its own disks are dropped. Collective.
 Disks deal_out(Ranks& ranks, const SlabStart& start, DiskSource* all, Disks part);
 
-// The disks that are in this rank's slab: others leave, and their memory is given back.
+// Keeps only the disks that are in this rank's slab, and frees the memory of the others.
 void keep_own_disks(const SlabCut& cut, int rank, Disks& disks);
 
 }  // namespace carom

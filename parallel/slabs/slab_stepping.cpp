@@ -23,9 +23,10 @@ namespace carom {
 
 namespace {
 
-// All go to the rank whose slab they are in when one has used up this share of the room that it has beyond its own.
+// All disks are sent to the rank whose slab they are in when one has used up this share of the room beyond its own
+// slab.
 constexpr double excursion_share = 0.5;
-// But not before it is so far beyond it, in largest radii.
+// But not before it is this far beyond its slab, in largest radii.
 constexpr double usual_excursion = 2.0;
 
 // Of a contact that two ranks resolve, that of the disk with the smaller id counts the impact.
@@ -56,7 +57,7 @@ SlabStepping::SlabStepping(const Scene& scene, State part, const SlabStart& star
   if (disks_ > 0) make_cells(start.counts);
 }
 
-// As wide as on one machine, for all disks; but only those of the slab.
+// Cells are as wide as on one machine, for all disks, but only those of the slab are made.
 void SlabStepping::make_cells(const std::vector<std::size_t>& counts) {
   make_grid(scene_.box, largest_radius_, counts, cells_.grid, stepping_margin);
   keep_rows(cells_.grid, slab_.low, slab_.high);
@@ -80,7 +81,7 @@ std::vector<DiskContact> SlabStepping::contacts() const {
   return closed_up_ ? contacts_kept_ : contacts_found();
 }
 
-// Those across a border on the rank of the disk with the smaller id.
+// A contact across a border is on the rank of the disk with the smaller id.
 std::vector<DiskContact> SlabStepping::contacts_found() const {
   std::vector<DiskContact> met;
   const std::vector<DiskId>& id = state_.disks.id;
@@ -127,7 +128,7 @@ double SlabStepping::smallest_of_all() const {
 Count SlabStepping::parts(double dt) {
   if (disks_ == 0) return 1;
   if (!scene_.sources.empty()) smallest_radius_ = smallest_of_all();
-  // As in TimeStepping: a bound is mostly enough to see that the step is safe.
+  // As in TimeStepping: in most cases a bound is enough to show that the step is safe.
   const double fall = common_travel(scene_, dt, smallest_radius_);
   if (speed2_known_ && (std::sqrt(speed2_) / smallest_radius_ + fall) * dt < 0.99 * safe_travel) return 1;
   if (has_sinks(scene_.box)) smallest_radius_ = smallest_of_all();
@@ -145,7 +146,7 @@ void SlabStepping::sort_if_due() {
 void SlabStepping::sort_now() {
   if (disks_ == 0) return;
   const PhaseTimer timer(times_, "sort");
-  // The pairs found name disks in the order of storage.
+  // The pairs found refer to disks by their order of storage.
   found_.used = 0;
   crossing_ids_.clear();
   sort_due_ = false;
@@ -194,7 +195,7 @@ void SlabStepping::search(const StepRules& rules) {
   if (!state_.disks.empty()) {
     const PhaseTimer timer(times_, "search");
     strays_ = find_contacts(state_.disks, scene_.box, cells_, executor_, found_);
-    cells_.coarse.current = false;  // what was found will be moved
+    cells_.coarse.current = false;  // the positions found will change
   }
   if (has_walls(rules.box)) {
     const PhaseTimer timer(times_, "walls");
@@ -203,8 +204,9 @@ void SlabStepping::search(const StepRules& rules) {
   see_neighbours();
 }
 
-// Agrees on how far disks have left their slabs, and finds those that may touch one of another slab: about as deep as
-// in the step before. Where one has gone too far in the drift, all go to the rank whose slab they are in now.
+// Agrees on how far disks have left their slabs, and finds those that may touch one of another slab, at about the same
+// depth as in the step before. If one has gone too far in the drift, all are sent to the rank whose slab they are in
+// now.
 void SlabStepping::find_near_borders() {
   if (ranks_.count() == 1 || cells_.grid.levels.empty()) return;
   const PhaseTimer timer(times_, "exchange");
@@ -225,7 +227,7 @@ void SlabStepping::find_near_borders() {
   }
 }
 
-// Ghosts, and the pairs across the borders, in a buffer behind those of the search.
+// Gets the ghosts, and finds the pairs across the borders, in a buffer behind those of the search.
 void SlabStepping::see_neighbours() {
   const PhaseTimer timer(times_, "exchange");
   Disks& d = state_.disks;
@@ -256,7 +258,7 @@ StepFigures SlabStepping::resolve(const StepRules& rules) {
 // Returns the largest squared speed of disks that had contacts.
 double SlabStepping::resolve_here(const StepRules& rules, ImpactTally& tally) {
   Disks& d = state_.disks;
-  // A ghost may have contacts that this rank does not see: none of its contacts is alone here.
+  // A ghost may have contacts that this rank does not know, so none of its contacts counts as alone.
   lists_.contacts.resize(ghosts_.own(), 0);
   lists_.contacts.resize(d.size(), 1);
   double speed2 = resolve_alone_contacts(d, rules, found_, executor_, lists_, tally);
@@ -293,8 +295,8 @@ void SlabStepping::drop_ghosts() {
   lists_.contacts.resize(ghosts_.own());
 }
 
-// What all ranks have to know of the step: its sums and figures, the largest speed, and whether to sort before the
-// next.
+// Makes the step's results common to all ranks: its sums and figures, the largest speed, and whether to sort before the
+// next step.
 void SlabStepping::agree(ImpactTally& tally, double speed2) {
   sum_over_ranks(ranks_, scene_.box, tally);
   tally.count_into(state_.counters);

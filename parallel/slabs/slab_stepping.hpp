@@ -31,7 +31,7 @@
 
 namespace carom {
 
-// state().disks are the rank's own disks; all else in state() is the same on all ranks. step() is collective. For
+// The disks of state() are the rank's own; all else in it is the same on all ranks. step() is collective. Used by
 // PairwiseMethod.
 class SlabStepping : public Engine, public InSlabs {
  public:
@@ -49,7 +49,7 @@ class SlabStepping : public Engine, public InSlabs {
   std::vector<std::string> take_warnings() override { return validity_.take_warnings(); }
 
  protected:
-  // As in TimeStepping, for scenes that slabs can have (slab_pairwise.hpp).
+  // As in TimeStepping, for scenes that slabs support (slab_pairwise.hpp).
   void start_interval(double t, double dt, Count step);
   void kick_if_due();
   Count parts(double dt);
@@ -57,7 +57,7 @@ class SlabStepping : public Engine, public InSlabs {
   void drift(double t);
   void search(const StepRules& rules);
   StepFigures resolve(const StepRules& rules);
-  void keep_places() {}  // by search(), which may sort the disks anew
+  void keep_places() {}  // search() does it, since it may sort the disks anew
   bool presses_others();
   void remove_at_sinks();
   Count all_disks() const { return disks_; }
@@ -97,7 +97,7 @@ class SlabStepping : public Engine, public InSlabs {
   SlabCut cut_;
   Slab slab_;
   DiskColumns columns_;
-  double smallest_radius_ = 0.0, largest_radius_ = 0.0;  // of all disks, those that sources may bring too
+  double smallest_radius_ = 0.0, largest_radius_ = 0.0;  // of all disks, also those that sources may bring
   CellList cells_;                                       // of the slab
   FoundContacts found_;                                  // in the last search
   ContactLists lists_;
@@ -105,21 +105,21 @@ class SlabStepping : public Engine, public InSlabs {
   BorderContacts border_contacts_;
   BorderRounds border_rounds_;
   DisplacedDisks displaced_;
-  std::vector<std::pair<DiskId, DiskId>> crossing_ids_;  // of the last search: own disk, ghost
-  std::vector<DiskContact> contacts_kept_;               // of that search, where disks have left since
-  bool closed_up_ = false;                               // have they?
-  // The same on all ranks between two steps.
+  std::vector<std::pair<DiskId, DiskId>> crossing_ids_;  // in the last search: own disk, ghost
+  std::vector<DiskContact> contacts_kept_;               // of that search, if disks have left since
+  bool closed_up_ = false;                               // have disks left since?
+  // The following are the same on all ranks between two steps.
   Count disks_ = 0;         // of all ranks
-  double excursion_ = 0.0;  // how far a disk of any rank has left its slab; length
+  double excursion_ = 0.0;  // largest distance of any rank's disk from its slab; length
   double speed2_ = 0.0;     // no disk's squared speed is larger
   bool speed2_known_ = false;
   bool sort_due_ = true;
-  std::size_t strays_ = 0;  // of the last search, on this rank
+  std::size_t strays_ = 0;  // in the last search, on this rank
   // Scratch.
   std::vector<std::uint32_t> near_;
   SeenBeyond seen_;
   std::vector<unsigned char> gone_;
-  SinkCounts taken_;  // by sinks, of those
+  SinkCounts taken_;  // by sinks, of the disks marked in gone_
   std::vector<double> block_values_;
   ShearedBlocks sheared_;
 };

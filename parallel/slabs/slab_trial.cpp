@@ -15,21 +15,21 @@ namespace carom {
 namespace {
 
 constexpr int most_tried = 3;
-// Enough to see disks sorted some times.
+// Enough for several sortings of the disks.
 constexpr Count most_steps = 200;
 
-// Of so many ranks, the borders that one has in the mean.
+// The mean number of borders of a rank, with this number of ranks.
 double borders(const Domain& box, int ranks) {
   if (ranks == 1) return 0.0;
   return box.periodic_y() ? 2.0 : 2.0 * (ranks - 1) / ranks;
 }
 
 struct Tried {
-  Count steps = 0, idle = 0;  // idle: without a disk of its own
+  Count steps = 0, idle = 0;  // idle: steps of a rank without disks of its own
   Messages exchange, others;  // of all ranks
 };
 
-// One rank's part of the trial. All agree on when to stop, which is not counted.
+// One rank's part of the trial. The ranks agree on when to stop; these messages are not counted.
 Tried try_part(const Scene& scene, const State& start, Ranks& ranks, double seconds) {
   Tried tried;
   const auto make = scene.run.method == Method::exact ? make_slab_exact : make_slab_pairwise;
@@ -41,7 +41,7 @@ Tried try_part(const Scene& scene, const State& start, Ranks& ranks, double seco
     try {
       engine->step();
     } catch (const PhysicsError&) {
-      break;  // on all ranks
+      break;  // it is thrown on all ranks
     }
     const Traffic more = traffic_since(before, ranks.traffic());
     tried.exchange.add(more.exchange);
@@ -65,13 +65,13 @@ SlabTraffic try_slabs(const Scene& scene, const State& start, int ranks, double 
     const Tried tried = try_part(scene, start, part, seconds);
     const std::lock_guard lock(mutex);
     all.steps = tried.steps;
-    if (part.rank() == 1) all.idle = tried.idle;  // of the lead's there would be none
+    if (part.rank() == 1) all.idle = tried.idle;  // the lead's part would have none
     all.exchange.add(tried.exchange);
     all.others.add(tried.others);
   });
   const double parts = static_cast<double>(std::max<Count>(1, all.steps)) * count;
   const double scale = ranks > count ? borders(scene.box, ranks) / borders(scene.box, count) : 1.0;
-  // Lead and followers agree on each step as well.
+  // Lead and followers exchange a message in each step as well.
   const double agreed = ranks > 1 ? 1.0 : 0.0;
   return {agreed + static_cast<double>(all.exchange.messages + all.others.messages) / parts,
           agreed * sizeof(std::int64_t) +

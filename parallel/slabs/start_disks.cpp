@@ -32,7 +32,7 @@ DiskSize StartDisks::size_of(std::size_t group, Count k) const {
 }
 
 void StartDisks::see_sizes() {
-  // The largest of each kind, and of its opposite.
+  // The maxima of each quantity, and of its negative.
   std::vector<double> most(4 + groups(), -std::numeric_limits<double>::infinity());
   for (std::size_t g = 0; g < groups(); ++g) {
     GroupRange range = share(g);
@@ -75,7 +75,7 @@ GroupRange StartDisks::between(std::size_t group, double low, double high) const
   return {first, std::max(first, first_from(high))};
 }
 
-// The sums of one machine are those of one disk after the other: a rank goes on where the one before it has come to.
+// The sums of one machine add one disk after the other: so each rank continues the sum of the one before it.
 template <class Sum, class Add>
 void StartDisks::sum_in_order(std::size_t group, Sum& sum, Add&& add) {
   for (int rank = 0; rank < ranks_.count(); ++rank) {
@@ -122,7 +122,7 @@ void StartDisks::sum_motions() {
   }
 }
 
-// Before it is scaled.
+// The velocity before it is scaled.
 Vec2 StartDisks::drawn_velocity(std::size_t group, Count k, double mass) const {
   const VelocityLaw& law = scene_.groups[group].velocities;
   if (law.kind == VelocityLaw::Kind::uniform) return uniform_velocity(scene_, law.limit, id_of(group, k));

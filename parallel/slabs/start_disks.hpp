@@ -17,20 +17,20 @@ struct GroupRange {
   Count first = 0, last = 0;
 };
 
-// What the sizes of all disks amount to.
+// The extreme sizes of all disks.
 struct SizeFacts {
-  DiskSize smallest, largest;         // radius and mass, each by itself
-  std::vector<double> group_largest;  // radius, of each group
+  DiskSize smallest, largest;         // extremes of radius and of mass, each by itself
+  std::vector<double> group_largest;  // largest radius of each group
 };
 
-// How the velocities and spins that a group draws become those that it has.
+// The corrections that turn the velocities and spins drawn for a group into its initial ones.
 struct DrawnMotion {
-  Vec2 mean;  // taken off
+  Vec2 mean;  // is subtracted
   double factor = 1.0, spin_factor = 1.0;
 };
 
 // Centres are in the coordinates of the room between sides that move. Every rank can make any disk; the sums over
-// groups, in order of id, go from rank to rank. Precondition: starts_on_slabs(scene).
+// groups, in order of id, pass from rank to rank. Precondition: starts_on_slabs(scene).
 class StartDisks {
  public:
   // Collective.
@@ -40,25 +40,26 @@ class StartDisks {
   Count disks() const { return disks_; }
   std::size_t groups() const { return scene_.groups.size(); }
 
-  // Of lattices. Throws InputError where one has no room. To be called before heights and places are asked for.
+  // Makes the lattices. Throws InputError if there is no room for one. Must be called before height, between and
+  // place_of.
   void place();
 
-  // How high the centre of the group's k-th disk lies; no lower than that of the disk before.
+  // The height of the centre of the group's k-th disk; not less than that of the disk before.
   double height(std::size_t group, Count k) const { return lattices_[group]->at(k).y; }
-  // The group's disks from one height to below another.
+  // The group's disks from height `low` to just below height `high`.
   GroupRange between(std::size_t group, double low, double high) const;
 
-  // Collective: what the velocities need of all disks.
+  // Collective: computes the sums over all disks that the velocities need.
   void sum_motions();
 
-  // Of a lattice.
+  // For a lattice.
   Vec2 place_of(std::size_t group, Count k) const { return lattices_[group]->at(k); }
   DiskSize size_of(std::size_t group, Count k) const;
-  // With its velocity and spin, which have to be summed before.
+  // The disk with its velocity and spin; sum_motions() must have been called.
   Disk disk_at(std::size_t group, Count k, Vec2 place) const;
   DiskId first_id(std::size_t group) const { return first_ids_[group]; }
 
-  // The rank's share of a group, where the work on all disks is shared without regard to where they are.
+  // The rank's share of a group, if work on all disks is distributed regardless of their places.
   GroupRange share(std::size_t group) const;
   // Calls use(group, k) for the disks of its shares, in order of id.
   template <class Use>

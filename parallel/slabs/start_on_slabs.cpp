@@ -27,13 +27,13 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Rows in which disks are counted for the cut: a slab of one in a thousand has sixty of them.
+// Rows in which disks are counted for the cut: with a thousand ranks a slab has about sixty of them.
 constexpr std::size_t rows_counted = std::size_t{1} << 16;
 
-// How far from a border a disk may touch another beyond it, in largest diameters; rounding included.
+// The largest distance from a border at which a disk may touch another beyond it, in largest diameters, with rounding.
 constexpr double reach_of_contacts = 1.0 + 1e-9;
 
-// The scene without moving sides and shear, in the coordinates of the room that it starts in.
+// The scene without moving sides and shear, in the coordinates of the room in which it starts.
 Scene scene_at_rest(const Scene& scene) {
   Scene at_rest = scene.box.has_moving_side() ? inside_moving_sides(scene) : scene;
   at_rest.box.shear = {};
@@ -88,7 +88,7 @@ class Maker {
     return !ranks_.any(overlap());
   }
 
-  // Disks are spread about evenly over the height.
+  // Slabs are cut as if disks were spread evenly over the height.
   bool place_at_random() {
     const PlacementRoom::Axis along = placement_room(at_rest_.box, disks_.sizes().largest.radius).up;
     for (int r = 0; r < ranks_.count(); ++r) {
@@ -140,7 +140,7 @@ class Maker {
     high_ = rank + 1 == ranks_.count() ? infinity : start_.cut.high(rank) - up_;
   }
 
-  // The group's disks from `low` to below `high` or whose images are, each once.
+  // The group's disks from `low` to just below `high`, and those with an image there, each once.
   std::vector<GroupRange> seen_between(std::size_t g, double low, double high) const {
     const Domain& box = at_rest_.box;
     std::vector<GroupRange> ranges{disks_.between(g, low, high)};
@@ -203,7 +203,7 @@ class Maker {
     return deep;
   }
 
-  // use(group, k, place) for the disks of the slab, in order of id.
+  // Calls use(group, k, place) for the disks of the slab, in order of id.
   template <class Use>
   void for_own(Use&& use) const {
     std::size_t next = 0;
@@ -221,7 +221,7 @@ class Maker {
     }
   }
 
-  // Made in the room between moving sides; in a sheared box, at rest.
+  // Shifts a disk from the room between moving sides to the box; in a sheared box, adds the velocity of the flow.
   Disk in_box(Disk disk) const {
     const Domain& room = inner_box_;
     if (room.shear.acts()) disk.vx += room.shear.flow(disk.y, room.height);
@@ -255,10 +255,10 @@ class Maker {
   Domain inner_box_ = scene_.box.has_moving_side() ? at_rest_.box : scene_.box;
   Ranks& ranks_;
   StartDisks disks_;
-  double right_ = 0.0, up_ = 0.0;  // of the room in the box; length
-  double low_ = 0.0, high_ = 0.0;  // of the slab in the room; length
+  double right_ = 0.0, up_ = 0.0;  // of the room within the box; length
+  double low_ = 0.0, high_ = 0.0;  // of the slab, in coordinates of the room; length
   SlabStart start_;
-  std::optional<PlacedOnSlab> placed_;  // at random
+  std::optional<PlacedOnSlab> placed_;  // of disks at random
 };
 
 }  // namespace
@@ -285,7 +285,7 @@ std::optional<StartOnSlab> start_on_slab(const Scene& scene, Ranks& ranks) {
   try {
     return Maker(scene, ranks).make();
   } catch (const InputError&) {
-    return {};  // regions beyond moving sides, which all ranks see
+    return {};  // regions beyond moving sides: every rank throws it
   }
 }
 

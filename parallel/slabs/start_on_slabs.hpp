@@ -1,4 +1,4 @@
-// Initial states made where they live: each rank makes the disks in its slab, with the bits of one machine.
+// Initial states made in parts: each rank makes the disks in its slab, with the bits of one machine.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,8 @@
 
 namespace carom {
 
-// Are the scene's disks of a kind that needs no rank to know them all? Lattices, and disks at random anywhere.
+// Are the scene's disks such that no rank needs all of them? That is so for lattices, and for disks at random in the
+// whole box.
 bool starts_on_slabs(const Scene& scene);
 
 struct StartOnSlab {
@@ -18,8 +19,8 @@ struct StartOnSlab {
   SlabStart start;
 };
 
-// Collective. None, on all ranks, where the scene is one that one machine refuses, or slabs do: which of its disks is
-// at fault, one machine says. Precondition: starts_on_slabs(scene).
+// Collective. Nothing, on all ranks, if the scene is one that one machine or slabs refuse: one machine then says which
+// disk is at fault. Precondition: starts_on_slabs(scene).
 std::optional<StartOnSlab> start_on_slab(const Scene& scene, Ranks& ranks);
 
 }  // namespace carom

@@ -13,7 +13,7 @@ namespace carom {
 
 namespace {
 
-// The disks near the borders of a slab, on both sides of them: all pairs across one are among them.
+// The disks near the borders of a slab, on both sides of them: these include all pairs across a border.
 Disks disks_at_borders(Ranks& ranks, const Slab& slab, const Domain& box, const Disks& own) {
   double largest = largest_radius(own);
   ranks.maximum({&largest, 1});
