@@ -13,16 +13,16 @@ namespace {
 
 constexpr unsigned deflate_level = 1;
 
-// What a flush may add to the file, in bytes, beyond the chunks that are there already: the last chunks of the plain
-// datasets (a few hundred KiB) and of the indices. It costs nothing, see make_readable.
+// The most that a flush may add to the file, in bytes, beyond the chunks that exist already: the last chunks of the
+// plain datasets (a few hundred KiB) and of the indices. It costs nothing, see make_readable.
 constexpr std::uint64_t flush_room = std::uint64_t{1} << 22;
 
 hid_t as_id(herr_t status) {
   return static_cast<hid_t>(status);
 }
 
-// The superblock's extension is made like any group without a plan of its own, and would contain the time at which it
-// was made.
+// While this object exists, the superblock's extension is made without a time: it is made like a group without
+// properties of its own, which would contain the time at which it was made.
 class TimelessGroups {
  public:
   explicit TimelessGroups(const Hdf5Output& output) {
@@ -38,13 +38,13 @@ class TimelessGroups {
 Hdf5Output::Hdf5Output(std::string path, bool existing) : path_(std::move(path)) {
   silence_hdf5();
   const Hdf5Handle access = checked(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  // Only the newest format keeps a file whole while it is written.
+  // Only the newest format keeps a file consistent while it is written.
   checked(H5Pset_libver_bounds(access.get(), H5F_LIBVER_LATEST, H5F_LIBVER_LATEST));
   if (existing) {
     clear_writing_mark(path_);
     file_ = checked(H5Fopen(path_.c_str(), H5F_ACC_RDWR, access.get()), H5Fclose);
   } else {
-    // A kill may cut a write in two where it crosses a page of the system's cache; so nothing small ever does.
+    // A kill may cut a write in two at a page of the system's cache, so no small write may cross one.
     constexpr hsize_t system_page = 4096;
     const Hdf5Handle plan = checked(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
     checked(H5Pset_file_space_strategy(plan.get(), H5F_FSPACE_STRATEGY_PAGE, false, 1));
@@ -59,7 +59,7 @@ Hdf5Output::Hdf5Output(std::string path) : path_(std::move(path)) {
   silence_hdf5();
   constexpr std::size_t growth = std::size_t{1} << 16;
   const Hdf5Handle access = checked(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  // The format that every version reads. Images of the newest one have a wrong checksum (HDF5 1.10.8).
+  // The format that every version reads. Images in the newest one have a wrong checksum (HDF5 1.10.8).
   checked(H5Pset_fapl_core(access.get(), growth, false));
   file_ = checked(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), H5Fclose);
 }
@@ -93,7 +93,7 @@ void Hdf5Output::checked(herr_t status) const {
 
 namespace {
 
-// Properties of a group or dataset to be made, without the time at which it is.
+// Properties of a group or dataset to be made, without the time of its making.
 Hdf5Handle timeless(const Hdf5Output& output, hid_t kind) {
   Hdf5Handle plan = output.checked(H5Pcreate(kind), H5Pclose);
   output.checked(H5Pset_obj_track_times(plan.get(), false));
@@ -113,7 +113,7 @@ void Hdf5Output::link(const std::string& target, const std::string& name) const 
 
 namespace {
 
-// Text of fixed length, UTF-8, as long as the longest and at least a byte.
+// Text of fixed length, UTF-8, as long as the longest text and at least a byte.
 Hdf5Handle text_type(const Hdf5Output& output, std::size_t length) {
   Hdf5Handle type = output.checked(H5Tcopy(H5T_C_S1), H5Tclose);
   output.checked(H5Tset_size(type.get(), std::max<std::size_t>(1, length)));
@@ -231,7 +231,7 @@ void Hdf5Output::begin_flush() const {
 
 void Hdf5Output::end_flush() const {
   checked(H5Fflush(file(), H5F_SCOPE_LOCAL));
-  // HDF5 has just set the mark "being written" again; without it the file can be opened after a kill.
+  // HDF5 has just set the mark "being written" again; without the mark the file can be opened after a kill.
   make_readable(path_, flush_room);
 }
 

@@ -22,7 +22,7 @@ std::uint32_t little_endian(const unsigned char* at) {
          static_cast<std::uint32_t>(at[2]) << 16 | static_cast<std::uint32_t>(at[3]) << 24;
 }
 
-// Bob Jenkins's lookup3 (2006), as HDF5 takes it over the 44 bytes before the checksum.
+// Bob Jenkins's lookup3 (2006), as HDF5 applies it to the 44 bytes before the checksum.
 std::uint32_t checksum_of(const Superblock& block) {
   std::uint32_t a = 0xdeadbeefU + static_cast<std::uint32_t>(checksum_at);
   std::uint32_t b = a;
@@ -60,7 +60,7 @@ std::uint32_t checksum_of(const Superblock& block) {
   return c;
 }
 
-// Of the kind that HDF5 makes where only the newest format is asked for, and undamaged.
+// Is this a superblock as HDF5 makes it if only the newest format is allowed, and undamaged?
 bool is_known(const Superblock& block) {
   constexpr std::array<unsigned char, 8> signature{0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
   return std::memcmp(block.data(), signature.data(), signature.size()) == 0 && block[version_at] == 3 &&
@@ -71,7 +71,7 @@ void put(Superblock& block, std::size_t at, std::uint64_t value, std::size_t byt
   for (std::size_t k = 0; k < bytes; ++k) block[at + k] = static_cast<unsigned char>(value >> (8 * k));
 }
 
-// Shows the superblock and the open file to change(), which returns whether the superblock is to be written.
+// Calls change() with the superblock and the open file; it returns whether to write the superblock.
 template <class Change>
 bool with_superblock(const std::string& path, Change change) {
   const int file = open(path.c_str(), O_RDWR | O_CLOEXEC);

@@ -12,7 +12,7 @@ namespace {
 // Bytes of a plane that are sampled to decide whether it is worth compressing.
 constexpr std::size_t sample_bytes = 1024;
 
-// Level of the planes that are: the fastest, as higher ones gain a few per cent at several times the cost.
+// Level for planes that are compressed: the fastest, since higher ones gain a few per cent at several times the cost.
 constexpr int fast_level = 1;
 
 void shuffle(const unsigned char* data, std::size_t count, std::size_t width, unsigned char* to) {
@@ -21,8 +21,8 @@ void shuffle(const unsigned char* data, std::size_t count, std::size_t width, un
   }
 }
 
-// Noise has every value about equally often: the sum of squared counts is then near n + n^2 / 256. Twice that is far
-// beyond chance, and promises to save an eighth of the plane or more.
+// In noise every value is about equally frequent, so the sum of squared counts is near n + n^2 / 256. Twice that is far
+// beyond chance, and promises to save at least an eighth of the plane.
 bool worth_compressing(const unsigned char* plane, std::size_t count) {
   std::array<unsigned, 256> counts{};
   const std::size_t stride = count > sample_bytes ? count / sample_bytes : 1;
@@ -53,13 +53,13 @@ const std::vector<unsigned char>& ShuffledDeflate::pack(const void* data, std::s
   shuffle(static_cast<const unsigned char*>(data), count, width, shuffled_.data());
   z_stream& z = stream_->z;
   deflateReset(&z);
-  // Each change of level may end a block: some bytes each.
+  // Each change of level may end a block, which takes some bytes.
   packed_.resize(deflateBound(&z, static_cast<uLong>(bytes)) + 64 * width);
   z.next_out = packed_.data();
   z.avail_out = static_cast<uInt>(packed_.size());
   for (std::size_t byte = 0; byte < width; ++byte) {
     unsigned char* const plane = shuffled_.data() + byte * count;
-    // The level is for what comes in from now on; what came before is written with its own.
+    // The new level applies to input from now on; earlier input is written with its own level.
     deflateParams(&z, worth_compressing(plane, count) ? fast_level : 0, Z_DEFAULT_STRATEGY);
     z.next_in = plane;
     z.avail_in = static_cast<uInt>(count);

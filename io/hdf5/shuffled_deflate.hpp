@@ -1,4 +1,4 @@
-// Packing a chunk of numbers as HDF5's shuffle and deflate filters would, in a fraction of their time.
+// Packs a chunk of numbers as HDF5's shuffle and deflate filters would, in a fraction of their time.
 #pragma once
 
 #include <cstddef>
@@ -16,11 +16,11 @@ class ShuffledDeflate {
 
   // bytes of data are numbers of width bytes each. The result is a zlib stream of the shuffled bytes (first byte of all
   // numbers, second byte of all, ...), valid until the next call. Any inflate reads it. The low bytes of coordinates
-  // are noise, on which deflate spends nine tenths of its time for nothing: they are stored as they are, and only bytes
-  // whose sample repeats itself are compressed. The result depends on the data alone. Throws std::bad_alloc.
+  // are noise, on which deflate spends nine tenths of its time for nothing: they are stored uncompressed, and only
+  // bytes whose sample repeats itself are compressed. The result depends only on the data. Throws std::bad_alloc.
   const std::vector<unsigned char>& pack(const void* data, std::size_t bytes, std::size_t width);
 
-  // What pack gave last.
+  // The last result of pack.
   const std::vector<unsigned char>& packed() const { return packed_; }
 
  private:
