@@ -8,7 +8,7 @@ namespace carom {
 
 namespace {
 
-// viridis (van der Walt and Smith 2015) at eighths; between them a straight line is within 4 of 255 of the original.
+// viridis (van der Walt and Smith 2015) at eighths; linear interpolation is within 4 of 255 of the original.
 constexpr std::array<Colour, viridis_stops + 1> viridis_eighths{{{68, 1, 84},
                                                                  {71, 44, 122},
                                                                  {59, 81, 139},

@@ -8,11 +8,11 @@ namespace carom {
 
 namespace {
 
-// Most of a Maxwell distribution in two dimensions, 99.8 %, lies below this many root mean squares.
+// In a Maxwell distribution in two dimensions 99.8 % lies below this many root mean squares.
 constexpr double reach = 2.5;
 
-// Of disks that all have one value the scale is that value; the ends of any other are multiples of a round step, about
-// a quarter of its length.
+// If all disks have the same value, the scale is that value; the ends of any other scale are multiples of a round step,
+// about a quarter of its length.
 ValueRange rounded(const ValueRange& range) {
   if (!(range.high > range.low)) return range;
   const double step = round_up((range.high - range.low) / 4.0);
@@ -23,7 +23,7 @@ void widen(ValueRange& range, bool any, double low, double high) {
   range = any ? ValueRange{std::min(range.low, low), std::max(range.high, high)} : ValueRange{low, high};
 }
 
-// In order of ids: the same bits in any storage order.
+// Summed in order of ids: the same bits in any storage order.
 double speed_square_of(const DisksInPieces& disks) {
   const auto n = static_cast<double>(disks.size());
   double mean = 0.0, greatest = 0.0;

@@ -8,12 +8,12 @@ namespace carom {
 
 namespace {
 
-constexpr double smallest_round = 0.7;  // pixels; below, shape cannot be seen
+constexpr double smallest_round = 0.7;  // pixels; the shape of a smaller disk is invisible
 
-// One component, `share` of the way from the pixel's value to the new one.
+// One component, mixed from the pixel's value and `share` of the new one.
 std::uint32_t blend(std::uint32_t pixel, unsigned shift, double value, double share) {
   const double old = static_cast<double>((pixel >> shift) & 0xffU);
-  // No component is below 0, so that cutting off rounds, without a call for each.
+  // No component is negative, so truncation rounds; a rounding function would be a call for each.
   const double mixed = old + share * (value - old) + 0.5;
   return static_cast<std::uint32_t>(mixed) << shift;
 }
@@ -29,7 +29,7 @@ void tint(const PixelArea& area, int column, int row, const Colour& colour, doub
   pixel = blend(pixel, colour, share);
 }
 
-// The disk's area, shared among the four pixels around its centre.
+// Distributes the disk's area over the four pixels around its centre.
 void tint_point(const PixelArea& area, double x, double y, double r, const Colour& colour) {
   const double share = std::min(std::numbers::pi * r * r, 1.0);
   const double left = std::floor(x - 0.5), top = std::floor(y - 0.5);
@@ -46,7 +46,7 @@ struct Span {
   int first = 0, end = 0;
 };
 
-// Those of a row of the area whose pixels' centres lie within the root of `half2` of x.
+// The columns of the area whose pixels' centres are within the root of `half2` of x.
 Span columns_within(const PixelArea& area, double x, double half2) {
   if (!(half2 > 0.0)) return {};
   const double half = std::sqrt(half2);
@@ -56,7 +56,7 @@ Span columns_within(const PixelArea& area, double x, double half2) {
 
 }  // namespace
 
-// Most pixels of a large disk have its colour as it is: only those near its rim need a distance.
+// Most pixels of a large disk have exactly its colour: only for those near its rim a distance is computed.
 void fill_disk(const PixelArea& area, double x, double y, double r, const Colour& colour) {
   if (x + r < area.left - 1 || x - r > area.right + 1 || y + r < area.top - 1 || y - r > area.bottom + 1) return;
   if (r < smallest_round) return tint_point(area, x, y, r, colour);

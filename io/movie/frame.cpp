@@ -15,7 +15,7 @@
 #include "io/movie/disk_raster.hpp"
 #include "io/movie/frame_legend.hpp"
 
-// fontconfig keeps what it has found until the program ends, and LeakSanitizer would fail every test that draws text.
+// fontconfig keeps its findings until the program ends, and LeakSanitizer would fail every test that draws text.
 #ifdef CAROM_ADDRESS_SANITIZER
 extern "C" {
 const char* __lsan_default_suppressions();
@@ -33,32 +33,32 @@ namespace carom {
 
 namespace {
 
-// In units: the longer side of the box fills its limit.
+// In units: the longer side of the box has its limit.
 constexpr double widest_box = 960.0, highest_box = 800.0;
-constexpr double narrowest_picture = 420.0, lowest_picture = 300.0;  // of the part without margins
-// Of a picture of usual size, which one of a given size is measured against; pixels. Letters never get smaller than
-// they can be read.
+constexpr double narrowest_picture = 420.0, lowest_picture = 300.0;  // without margins
+// The size of a usual picture, in pixels, to which a picture of given size is compared. Letters never become too small
+// to be read.
 constexpr double usual_width = 1120.0, usual_height = 926.0;
 constexpr double smallest_unit = 0.6;
 
-// A few disks far smaller than a pixel would be invisible in a large box; they are drawn as large as this.
+// A few disks far smaller than a pixel would be invisible in a large box; they are drawn with this radius.
 constexpr std::size_t few_disks = 5000;
 constexpr double smallest_of_few = 1.6;
-// More than any picture has: a trajectory of others may name any radius, and Cairo would cut the arc of one of 1e300
-// into as many pieces as it needs, for ever.
+// Larger than any picture: a trajectory of another program may have any radius, and Cairo would divide the arc of a
+// radius of 1e300 into as many pieces as it needs, for ever.
 constexpr double largest_drawn = 1e6;
 
-// In order of ids disks lie anywhere in memory: those so far ahead are prefetched while others are drawn.
+// In order of ids disks may be anywhere in memory: those this far ahead are prefetched while others are drawn.
 constexpr std::size_t disks_ahead = 16;
 
-// Inlined, as g++ 12 leaves out calls of functions that do nothing but prefetch.
+// Inlined, since g++ 12 drops calls of functions that only prefetch.
 [[gnu::always_inline]] inline void prefetch_disk(const Disks& d, std::size_t i) {
   for (const double* const column : {d.x.data(), d.y.data(), d.vx.data(), d.vy.data()}) {
     __builtin_prefetch(column + i);
   }
 }
 
-// For drawing: what is drawn are disks.
+// Obstacles as disks, for drawing.
 Disks as_disks(const std::vector<Obstacle>& obstacles) {
   Disks disks;
   for (const Obstacle& o : obstacles) {
@@ -71,7 +71,7 @@ int even(double pixels) {
   return 2 * static_cast<int>(std::ceil(0.5 * pixels));
 }
 
-// A picture as large as the box asks for.
+// The layout of a picture whose size follows from the box.
 FrameLayout usual_layout(const Domain& box) {
   FrameLayout f;
   f.scale = std::min(widest_box / box.width, highest_box / box.height);
@@ -85,7 +85,7 @@ FrameLayout usual_layout(const Domain& box) {
   return f;
 }
 
-// The box as large as it fits into a picture of a given size.
+// The layout of a picture of a given size, with the largest box that fits.
 FrameLayout given_layout(const Domain& box, int width, int height) {
   FrameLayout f;
   f.width = width;
@@ -190,7 +190,7 @@ void FramePainter::for_each_disk(const DisksInPieces& disks, const std::vector<D
   });
 }
 
-// A disk across a periodic side is seen on the other one too. box: at the time of the disks.
+// A disk across a periodic side is also drawn at the other one. box: at the time of the disks.
 template <class Draw>
 void FramePainter::for_each_image(const Disks& disks, std::size_t i, const Domain& box, Draw draw) const {
   const double r = disks.radius_of(i);

@@ -18,7 +18,7 @@ namespace carom {
 namespace {
 
 constexpr double bar_width = 22.0;  // units
-constexpr DiskId most_groups = 20;  // that are listed; there is no room for more
+constexpr DiskId most_groups = 20;  // number in the list; there is no room for more
 
 enum class Align { left, right, centre };
 
@@ -38,17 +38,17 @@ void draw_text(cairo_t* c, const std::string& text, double x, double y, double s
   cairo_show_text(c, text.c_str());
 }
 
-// Takes the last character away; of UTF-8.
+// Removes the last character, in UTF-8.
 void shorten(std::string& text) {
   while (text.size() > 1 && (static_cast<unsigned char>(text.back()) & 0xc0U) == 0x80U) text.pop_back();
   text.pop_back();
 }
 
-// Cuts text at a character boundary until it is at most `room` wide at this size. Half a character would be an error to
-// Cairo, which draws nothing more.
+// Cuts text at a character boundary until it is at most `room` wide at this size. Half a character would be an error in
+// Cairo, which then draws nothing more.
 std::string fitting(cairo_t* c, std::string text, double size, double room, bool bold = false) {
   text = shown_text(text);
-  // No picture has room for more; measuring takes time for each letter.
+  // No picture has room for more, and measuring takes time for each letter.
   constexpr std::size_t most_bytes = 2000;
   while (text.size() > most_bytes) shorten(text);
   select_font(c, size, bold);
@@ -62,7 +62,7 @@ std::string fitting(cairo_t* c, std::string text, double size, double room, bool
   return text + "…";
 }
 
-// Each kind of side has its own colour and dash, so that they differ without colour too.
+// Each kind of side has its own colour and dash, so that they also differ without colour.
 void set_stroke(cairo_t* c, SideKind kind, double unit) {
   const std::array<double, 2> periodic_dash{10.0 * unit, 7.0 * unit};
   const std::array<double, 2> sink_dash{3.0 * unit, 5.0 * unit};
@@ -93,7 +93,7 @@ void set_colour(cairo_t* c, const Colour& colour) {
   cairo_set_source_rgb(c, colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
 }
 
-// How many intervals of the colour bar, 3 to 5, give the shortest numbers: 2.5 is cut into 0.5, 3 into 1.
+// The number of intervals of the colour bar, 3 to 5, with the shortest numbers: 2.5 is divided into 0.5, 3 into 1.
 int intervals_of(double low, double high) {
   const auto length = [&](int n) {
     std::size_t longest = 0;
@@ -119,7 +119,7 @@ void draw_colour_bar(cairo_t* c, const FrameStyle& style, const FrameLayout& lay
   const double low = layout.height - bottom_margin * u;
   const bool one_value = !(style.high > style.low);
   const int rows = static_cast<int>(one_value ? bar_width * u : low - (top_margin + 30.0) * u);
-  // Between its stops viridis() is a straight line, as the gradient is.
+  // Between its stops viridis() is linear, as the gradient is.
   const std::unique_ptr<cairo_pattern_t, void (*)(cairo_pattern_t*)> bar(
       cairo_pattern_create_linear(0.0, low, 0.0, low - rows), cairo_pattern_destroy);
   for (int stop = 0; stop <= viridis_stops; ++stop) {
@@ -132,7 +132,7 @@ void draw_colour_bar(cairo_t* c, const FrameStyle& style, const FrameLayout& lay
   cairo_fill(c);
   const std::string_view name = colour_names[static_cast<std::size_t>(style.look.colour)];
   draw_text(c, std::string(name), x, low - rows - 12.0 * u, 16.0 * u, Align::left);
-  // Disks beyond an end have its colour, where the scale was given or predicted. Nothing that has one is below 0.
+  // If the scale was given or predicted, disks beyond an end have the end's colour. No coloured quantity is negative.
   const bool given = style.look.range.has_value();
   const bool open_low = given && style.low > 0.0, open_high = given || style.look.colour == ColourBy::speed;
   const int intervals = one_value ? 0 : intervals_of(style.low, style.high);
@@ -181,7 +181,7 @@ bool shows(const FrameStyle& style, SideKind kind) {
   return style.box.has(kind) || std::any_of(style.obstacles.begin(), style.obstacles.end(), is_such);
 }
 
-// Names the kinds of side, where there is anything but walls.
+// Names the kinds of side, unless all are walls.
 void draw_kinds_of_side(cairo_t* c, const FrameStyle& style, const FrameLayout& layout) {
   if (!shows(style, SideKind::periodic) && !shows(style, SideKind::sink)) return;
   const double u = layout.unit;
@@ -239,7 +239,7 @@ void draw_segment(cairo_t* c, const FrameLayout& layout, double x, double y, con
   cairo_stroke(c);
 }
 
-// All images of a wall that has gone round a periodic box which lie in it, cut off at its sides.
+// Draws all images in the box of a wall that has moved around a periodic box, cut off at the box's sides.
 void draw_images(cairo_t* c, const FrameStyle& style, const FrameLayout& layout, const Obstacle& o) {
   const Domain& box = style.box;
   cairo_save(c);

@@ -1,4 +1,5 @@
-// What stands around the box in a picture: title, colour bar or list of groups, kinds of side, time and count.
+// The surroundings of the box in a picture: title, colour bar or list of groups, kinds of side, time and number of
+// disks.
 #pragma once
 
 #include "io/movie/frame.hpp"
@@ -9,14 +10,14 @@ inline constexpr double left_margin = 28.0, right_margin = 132.0, top_margin = 7
 inline constexpr double side_width = 4.0;  // of a wall's line; units
 inline constexpr Colour obstacle_colour{150.0, 150.0, 150.0};
 
-// What no frame changes.
+// Draws what is the same in all frames.
 void draw_legends(_cairo* context, const FrameStyle& style, const FrameLayout& layout);
 
-// The sides of the box, outside of it, so that a disk at the wall is seen whole. Sides that move are where they are at
-// this time.
+// Draws the sides of the box, outside of it, so that a disk at the wall is entirely visible. Sides that move are drawn
+// at their places at this time.
 void draw_sides(_cairo* context, const FrameStyle& style, const FrameLayout& layout, double time);
 
-// Inner walls, as the sides are drawn.
+// Draws inner walls in the same way.
 void draw_inner_walls(_cairo* context, const FrameStyle& style, const FrameLayout& layout, double time);
 
 void draw_stamps(_cairo* context, const FrameStyle& style, const FrameLayout& layout, std::size_t disks, double time);

@@ -12,16 +12,16 @@ namespace carom {
 
 namespace {
 
-// Where only a mean square speed can be predicted, the scale ends at this many of it: the tail shares one colour, but
-// the rest is not all dark.
+// If only a mean square speed can be predicted, the scale ends at this multiple of it: the disks of the tail share a
+// colour, but the others are not all dark.
 constexpr double tail = 2.5;
 
-// Ids are numbers below this.
+// Ids are less than this.
 constexpr Count most_ids = std::numeric_limits<DiskId>::max();
 
-// Mean square speed once collisions have shared the energy out: 2 kT / m with kT = K / N, averaged over the disks. 0
-// for disks of one mass, where it says nothing new. In order of ids, here and below: the same bits in any storage
-// order.
+// The mean square speed after collisions have distributed the energy: 2 kT / m with kT = K / N, averaged over the
+// disks. 0 for disks of one mass, since it is the present one then. Summed in order of ids, as all sums below: the same
+// bits in any storage order.
 double shared_square(const DisksInPieces& disks) {
   double kinetic = 0.0, inverse_mass = 0.0, least = HUGE_VAL, greatest = 0.0;
   disks.visit([&](const Disks& d) {
@@ -37,12 +37,12 @@ double shared_square(const DisksInPieces& disks) {
   return least >= greatest ? 0.0 : 2.0 * (kinetic / n) * (inverse_mass / n);
 }
 
-// The way of a disk along an axis of the box to the wall that it falls to. part: of gravity, towards low coordinates.
+// The distance along an axis of the box to the wall to which a disk falls. part: of gravity, towards low coordinates.
 double way_down(double part, double coordinate, double radius, double length) {
   return std::max((part < 0.0 ? length - coordinate : coordinate) - radius, 0.0);
 }
 
-// What falling to the floor, and to a side wall, adds, on average.
+// The mean square speed that falling to the floor, and to a side wall, adds.
 double falling_square(const DisksInPieces& disks, const Gravity& gravity, const Domain& box) {
   double across = 0.0, height = 0.0;
   disks.visit([&](const Disks& d) {
@@ -56,7 +56,7 @@ double falling_square(const DisksInPieces& disks, const Gravity& gravity, const 
   return disks.size() == 0 ? 0.0 : 2.0 * work / static_cast<double>(disks.size());
 }
 
-// What the radii and masses of a source may be.
+// The possible radii of a source's disks.
 ValueRange radius_range(const Source& source) {
   const auto [smallest, largest] = ends_of_sizes(source.radius, source.mass);
   return {smallest.radius, largest.radius};
@@ -66,7 +66,7 @@ ValueRange mass_range(const Source& source) {
   return {smallest.mass, largest.mass};
 }
 
-// Of disks of this mass at a temperature.
+// For disks of this mass at a temperature.
 double thermal_square(double temperature, double mass) {
   return mass > 0.0 ? tail * 2.0 * temperature / mass : 0.0;
 }
@@ -78,7 +78,7 @@ double source_square(const Source& source) {
   return thermal_square(source.velocities.temperature, mass_range(source).low);
 }
 
-// What falling adds to disks from a source, from the middle of where they come in.
+// The square speed that falling adds to disks from a source, from the middle of its side or region.
 double falling_square(const Source& source, const Gravity& gravity, const Domain& box) {
   double x = 0.5 * (source.region_low.x + source.region_high.x);
   double y = 0.5 * (source.region_low.y + source.region_high.y);
@@ -98,7 +98,7 @@ double least_mass(const Scene& scene, const SeenValues& seen) {
   return least < HUGE_VAL ? least : 0.0;
 }
 
-// What thermal sides and thermostats give to disks, and walls that move to disks at rest.
+// The square speeds that thermal sides and thermostats give to disks, and moving walls to disks at rest.
 double driven_square(const Scene& scene, const SeenValues& seen) {
   double temperature = scene.physics.thermostat.temperature, speed = fastest_inner_wall(scene);
   for (const Side side : all_sides) {
@@ -108,7 +108,7 @@ double driven_square(const Scene& scene, const SeenValues& seen) {
   return std::max(thermal_square(temperature, least_mass(scene, seen)), 4.0 * speed * speed);
 }
 
-// So many decimals that multiples of the frame interval differ and are shown exactly, up to four.
+// The number of decimals, at most four, with which multiples of the frame interval differ and are exact.
 int decimals_for(double every, double t_end) {
   const double interval = every > 0.0 ? every : t_end;
   if (!(interval >= 1e-4 && t_end < 1e7)) return -1;
@@ -154,7 +154,7 @@ SeenValues foreseen_values(const Scene& scene, const DisksInPieces& first) {
   }
   square = std::max(square, driven_square(scene, seen));
   if (physics.diffusion > 0.0 && scene.run.dt > 0.0) {
-    const double brownian = 4.0 * physics.diffusion / scene.run.dt;  // mean of (u / dt)^2, both components
+    const double brownian = 4.0 * physics.diffusion / scene.run.dt;  // mean of (u / dt)^2, of both components together
     square = physics.accumulate ? square + brownian : tail * brownian;
   }
   seen.speed_square = square;

@@ -21,13 +21,13 @@ constexpr const char* list_name = "movie_parts.txt";
 constexpr const char* joined_name = "movie_joined.mp4";  // parts are of mp4 only
 constexpr const char* part_prefix = "movie_part_";
 
-// The parts one after another, each frame as it was encoded.
+// Joins the parts one after another, with each frame as it was encoded.
 std::vector<std::string> joining(const std::string& program) {
   return {program, "-nostdin", "-loglevel", "error", "-y",        "-f",         "concat",
           "-i",    list_name,  "-c",        "copy",  "-movflags", "+faststart", joined_name};
 }
 
-// Of this process only: an ffmpeg that outlived a process which was killed may still be writing its own part.
+// A name of this process only: an ffmpeg that outlived its killed process may still be writing its own part.
 std::string part_name(Count first_frame, const std::string& extension) {
   return fmt::format("{}{:09}_{}{}", part_prefix, first_frame, getpid(), extension);
 }

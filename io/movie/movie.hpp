@@ -1,4 +1,4 @@
-// A movie from frames, through ffmpeg; where there is none, the frames as PNG files.
+// A movie from frames, through ffmpeg; without ffmpeg, the frames as PNG files.
 #pragma once
 
 #include <memory>
@@ -12,36 +12,36 @@
 
 namespace carom {
 
-// False where a movie becomes single frames.
+// False if frames are written in place of a movie.
 bool finds_ffmpeg();
 
-// A movie is encoded in parts, as a file that ffmpeg has not finished cannot be continued: every mark ends a part. A
-// run without marks has one part, which becomes the movie; else ffmpeg joins them, without encoding anything again.
+// A movie is encoded in parts, since a file that ffmpeg has not finished cannot be continued: every mark ends a part.
+// Without marks there is one part, which becomes the movie; otherwise ffmpeg joins the parts, without encoding them
+// again.
 class MovieWriter {
  public:
-  // The movie goes to `folder`/movie.mp4 (H.264, which plays everywhere; or movie.webm, movie.gif), or frames to
+  // The movie is written to `folder`/movie.mp4 (H.264, which plays everywhere; or movie.webm, movie.gif), or frames to
   // `folder`/frames/frame_000001.png and so on. Throws RunError if neither can be started.
   MovieWriter(const std::string& folder, FrameStyle style, MovieFormat format = MovieFormat::mp4);
 
-  // Goes on with a movie.mp4 behind a mark; parts that came after it are removed. Throws RunError where there is no
-  // ffmpeg any more.
+  // Continues a movie.mp4 behind a mark; parts after it are removed. Throws RunError if ffmpeg is no longer found.
   MovieWriter(const std::string& folder, FrameStyle style, const MovieMark& from);
 
-  // True where ffmpeg is not installed and single frames are written instead.
+  // True if ffmpeg is not installed and single frames are written instead.
   bool single_frames() const { return ffmpeg_.empty(); }
 
-  // Throws RunError if the frame cannot be drawn or handed over, with what ffmpeg said.
-  // group: as for FramePainter::paint.
+  // Throws RunError, with the message of ffmpeg, if the frame cannot be drawn or handed over. group: as for
+  // FramePainter::paint.
   void add(const DisksInPieces& disks, const std::vector<DiskId>& group = {});
   void add(const Disks& disks, double time, const std::vector<DiskId>& group = {}) {
     add(WholeDisks(disks, time), group);
   }
 
-  // Of a movie.mp4: ends the part that is being made; what all parts hold is on the disk. Throws RunError if ffmpeg
-  // could not write it.
+  // For movie.mp4: ends the present part; the frames of all parts are then on the disk. Throws RunError if ffmpeg could
+  // not write it.
   MovieMark mark();
 
-  // Completes the movie and returns a mark to which it can be taken up again. Throws RunError if ffmpeg could not write
+  // Completes the movie and returns a mark from which it can be continued. Throws RunError if ffmpeg could not write
   // it.
   MovieMark finish();
 
@@ -60,8 +60,8 @@ class MovieWriter {
   FramePainter painter_;
   std::string ffmpeg_;  // path of the program, empty if there is none
   std::unique_ptr<ChildProcess> encoder_;
-  std::vector<std::string> parts_;  // the one being made is the last
-  bool marked_ = false;             // a mark names parts_: they must stay as they are
+  std::vector<std::string> parts_;  // the last one is being made
+  bool marked_ = false;             // a mark names parts_, which must then stay as they are
   Count frames_ = 0;
 };
 

@@ -29,8 +29,8 @@ std::vector<std::string> joined(std::initializer_list<std::vector<std::string>> 
 
 const FormatRow& row_of(MovieFormat format) {
   // H.264 with the pixel format that every player supports. crf 20 is visually lossless for flat disks; without
-  // B-frames (bf 0) parts can be joined with no frame out of its time; faststart lets a browser begin before the end
-  // has arrived. VP9 likewise. A GIF has a palette for each frame, so that none need be kept in memory.
+  // B-frames (bf 0) parts can be joined with each frame at its time; faststart lets a browser begin before the end has
+  // arrived. VP9 is used in the same way. A GIF has a palette for each frame, so no frames need to be kept in memory.
   // The colour space that every player supports: the filter converts to it, the marks name it in the file.
   static const std::vector<std::string> filter{"-vf", "scale=out_color_matrix=bt709:out_range=tv"};
   static const std::vector<std::string> marks{"-colorspace", "bt709",      "-color_primaries",
@@ -51,7 +51,7 @@ const FormatRow& row_of(MovieFormat format) {
   return rows[static_cast<std::size_t>(format)];
 }
 
-// Whether a file is a sequence of whole MP4 boxes (32-bit size, name, content), the index "moov" among them.
+// Is a file a sequence of complete MP4 boxes (32-bit size, name, content), with the index "moov" among them?
 bool is_whole_mp4(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::error_code error;
@@ -77,13 +77,13 @@ bool is_whole_mp4(const std::string& path) {
   return !error && indexed && at == bytes;
 }
 
-// Whether a file is an EBML header and one segment that reaches to the end of the file, as its size says; ffmpeg writes
-// the size last.
+// Is a file an EBML header and one segment that ends at the end of the file, as its size says? ffmpeg writes that size
+// last.
 bool is_whole_webm(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(path, error);
-  // A number of as many bytes as its first has leading zeros, and one; the bit after the zeros does not count.
+  // A number has one byte more than its first byte has leading zeros; the bit after the zeros does not count.
   const auto size_at = [&](std::uintmax_t& at) -> std::uintmax_t {
     file.seekg(static_cast<std::streamoff>(at));
     const int first = file.get();
@@ -109,7 +109,7 @@ bool is_whole_webm(const std::string& path) {
   return file.good() && at == bytes;
 }
 
-// From its signature to the end of its last frame and the trailer.
+// Is a file complete from the signature to the end of its last frame and the trailer?
 bool is_whole_gif(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::array<char, 6> head{};

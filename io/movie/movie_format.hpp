@@ -14,10 +14,10 @@ enum class MovieFormat : std::uint8_t { mp4, webm, gif };
 // "movie.mp4" and so on.
 std::string movie_name(MovieFormat format);
 
-// Of a file's extension with its dot, in small or capital letters.
+// The format for a file's extension with its dot, in small or capital letters.
 std::optional<MovieFormat> movie_format_of(std::string_view extension);
 
-// The command that makes `file` of raw frames on its standard input, pixels as FramePainter has them.
+// The command that makes `file` from raw frames on its standard input, with pixels as in FramePainter.
 struct RawFrames {
   int width = 0, height = 0;  // pixels
   double fps = 25.0;
@@ -25,7 +25,7 @@ struct RawFrames {
 std::vector<std::string> encoding(const std::string& program, const RawFrames& frames, MovieFormat format,
                                   const std::string& file);
 
-// Whether the file is complete. ffmpeg says 0 even where a full disk cut its file short.
+// Is the file complete? ffmpeg returns 0 even if a full disk cut its file short.
 bool is_whole_movie(const std::string& path, MovieFormat format);
 
 }  // namespace carom
