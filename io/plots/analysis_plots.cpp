@@ -14,9 +14,9 @@ namespace carom {
 
 namespace {
 
-constexpr std::size_t pair_letters = 15;  // of a group's name, where two stand beside a line
+constexpr std::size_t pair_letters = 15;  // of a group's name, if two names are beside a line
 
-// Leaves out what is not a number.
+// Leaves out values that are not numbers.
 Line line_of(std::string name, const std::vector<double>& x, const std::vector<double>& y,
              LineStyle style = LineStyle::solid) {
   Line line{std::move(name), {}, {}, style};
@@ -32,7 +32,7 @@ Line level(std::string name, double end, double value) {
   return {std::move(name), {0.0, end}, {value, value}, LineStyle::dashed};
 }
 
-// Says of which group's disks alone a quantity is.
+// Names the group to whose disks a quantity is restricted.
 std::string heading_of(const Scene& scene, std::string subject) {
   if (!scene.analysis.group.empty()) subject += " of " + scene.analysis.group;
   return heading(scene.title, subject.c_str());
@@ -54,7 +54,7 @@ Figure pair_figure(const Scene& scene, const AnalysisRecord& record) {
 Figure speed_figure(const Scene& scene, const AnalysisRecord& record) {
   BinnedCurve measured = speed_curve(record, scene.analysis);
   BinnedCurve maxwell = maxwell_curve(scene.analysis);
-  // As far as there is anything to see.
+  // Up to the largest speed seen.
   const double end = std::max(3.0, record.speeds.largest_seen);
   const auto shown = std::upper_bound(measured.middle.begin(), measured.middle.end(), end) - measured.middle.begin();
   const auto bins = std::max<std::size_t>(1, static_cast<std::size_t>(shown));
@@ -111,7 +111,7 @@ Figure structure_figure(const Scene& scene, const AnalysisRecord& record) {
   const auto add = [&](const char* name, const StructureCurve& curve) {
     if (curve.k.empty()) return;
     panel.lines.push_back(line_of(name, curve.k, curve.s));
-    end = std::max(end, curve.k.back());  // in a box that is taller than wide that is along x
+    end = std::max(end, curve.k.back());  // in a box that is taller than wide the last one is along x
   };
   add("along x", structure_along_x(record, scene));
   add("along y", structure_along_y(record, scene));
@@ -145,7 +145,7 @@ Figure memory_figure(const Scene& scene, const AnalysisRecord& record, const std
   return {heading_of(scene, subject), "time since the first sample", since.empty() ? 1.0 : since.back(), {panel}};
 }
 
-// A power law through a point of the curve, over as much of the picture as lies within its heights.
+// A power law through a point of the curve, as far as it stays within the range of the curve's values.
 Line slope(const char* name, const Line& curve, std::size_t through, double exponent) {
   const double x = curve.x[through], y = curve.y[through];
   const auto [least, greatest] = std::minmax_element(curve.y.begin(), curve.y.end());

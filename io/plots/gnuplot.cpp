@@ -13,35 +13,35 @@ namespace carom {
 
 namespace {
 
-// Ten colours that stay apart for all common kinds of colour blindness: black and the set of Okabe and Ito without its
-// yellow, too pale for a line, completed by dark shades from the schemes of Paul Tol.
+// Ten colours that can be told apart with all common kinds of colour blindness: black and the set of Okabe and Ito
+// without its yellow, too pale for a line, completed by dark shades from the schemes of Paul Tol.
 constexpr std::array<const char*, 10> colours{"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000",
                                               "#E69F00", "#56B4E9", "#332288", "#882255", "#888888"};
 
 constexpr const char* grey = "#666666";
 
-// More points than this on a line are more than pixels; the file would only grow.
+// More points than this on a line are more than pixels, and would only enlarge the file.
 constexpr std::size_t most_points = 4000;
 
 constexpr int width_pixels = 960;
 constexpr double panel_pixels = 310.0, top_pixels = 56.0, bottom_pixels = 76.0;
 constexpr double label_pixels = 19.0;  // least distance of two names
-// Room for the numbers at the vertical axis, as long as -1.2e-12, and what they are of; and for the names of lines,
-// from where they begin: those of most figures, or as much as the longest takes.
+// Room for the numbers at the vertical axis, up to the length of -1.2e-12, and for its label; and for the names of
+// lines, from their beginning: the usual width, or more if the longest name needs it.
 constexpr double left_pixels = 130.0, usual_right_pixels = 125.0, name_begin_pixels = 27.0, letter_pixels = 9.2;
-constexpr std::size_t title_letters = 92;  // that a line across the picture holds
+constexpr std::size_t title_letters = 92;  // in a line across the picture
 constexpr std::size_t name_letters = 32;
 
 struct Range {
   double low = 0.0, high = 1.0;
 };
 
-// UTF-8: the other bytes of a letter are 10xxxxxx.
+// In UTF-8 the other bytes of a letter are 10xxxxxx.
 bool begins_letter(char byte) {
   return (static_cast<unsigned char>(byte) & 0xc0U) != 0x80U;
 }
 
-// Heights as the axis shows them: of a logarithmic one, their logarithms.
+// A value as a height along the axis: its logarithm if the axis is logarithmic.
 double shown(double y, bool logarithmic) {
   return logarithmic ? std::log10(y) : y;
 }
@@ -69,12 +69,13 @@ Range vertical_range(const Panel& panel, bool logarithmic) {
   return {panel.from_zero && r.low == 0.0 ? 0.0 : r.low - margin, r.high + margin};
 }
 
-// Of a long line, so many values give two points: the least and the greatest, so that no spike gets lost.
+// The number of values of a long line for which two points are drawn: the least and the greatest, so that no spike is
+// lost.
 std::size_t stretch_of(std::size_t points) {
   return points <= most_points ? 1 : (2 * points + most_points - 1) / most_points;
 }
 
-// The points of a line, one a row.
+// Appends the points of a line, one a row.
 void append_points(std::string& data, const Line& line) {
   const std::size_t n = line.x.size();
   const std::size_t stretch = stretch_of(n);
@@ -90,7 +91,7 @@ void append_points(std::string& data, const Line& line) {
   }
 }
 
-// The same of a band: the lowest and the highest of each stretch.
+// The same for a band: the lowest and the highest value of each stretch.
 void append_points(std::string& data, const Band& band) {
   const std::size_t n = band.x.size();
   const std::size_t stretch = (n + most_points - 1) / most_points;
@@ -103,7 +104,7 @@ void append_points(std::string& data, const Band& band) {
   }
 }
 
-// Heights for the names of the lines: where the lines end, moved apart until no two overlap.
+// Heights for the names of the lines: at the ends of the lines, moved apart until no two overlap.
 std::vector<double> label_heights(const Panel& panel, const Range& range, bool logarithmic) {
   const double distance = (range.high - range.low) * label_pixels / (0.9 * panel_pixels);
   std::vector<std::pair<double, std::size_t>> ends;
@@ -127,7 +128,7 @@ std::vector<double> label_heights(const Panel& panel, const Range& range, bool l
   return heights;
 }
 
-// What stands in the margin beside a line's end.
+// The text in the margin beside a line's end.
 std::string margin_name(const Figure& figure, const Line& line, double x_end) {
   const std::string name = shortened(line.name, name_letters);
   return line.x.back() >= x_end ? name : name + figure.of_ended;
@@ -145,12 +146,12 @@ double right_pixels(const Figure& figure, double x_end) {
   return pixels;
 }
 
-// The name of a line in the margin, joined to the line's end; or, where it ends early, a cross there, as a stroke from
-// there to the margin would look like data.
+// The name of a line in the margin, joined to the line's end. If the line ends early, a cross marks its end instead,
+// since a stroke from there to the margin would look like data.
 std::string name_commands(const Figure& figure, const Line& line, std::size_t tag, double height, double x_end,
                           const char* colour) {
   if (line.style == LineStyle::guide) {
-    // Left of its end, above it: to the right there may be no room. Above its beginning where it ends at the margin.
+    // Left of its end, above it, since there may be no room to the right; above its beginning if it ends at the margin.
     const bool at_end = line.x.back() < x_end;
     return fmt::format("set label {} {} at first {}, first {} {} textcolor rgb '{}'\n", tag, gnuplot_quoted(line.name),
                        at_end ? line.x.back() : line.x.front(), at_end ? line.y.back() : line.y.front(),
@@ -169,7 +170,8 @@ std::string name_commands(const Figure& figure, const Line& line, std::size_t ta
   return text;
 }
 
-// How gnuplot draws a line: "with lines ..."; of a single point, which would not be seen as a line, that.
+// The style of a line for gnuplot: "with lines ..."; a single point, which would be invisible as a line, is drawn as a
+// point.
 std::string drawn_with(const Line& line, const char* colour, bool wide) {
   if (line.style == LineStyle::edge) return fmt::format("with lines lw 0.5 lc rgb '{}'", colour);
   if (line.style == LineStyle::points || line.x.size() == 1)
@@ -210,7 +212,7 @@ std::string panel_commands(const Figure& figure, const Panel& panel, std::size_t
   return text + plot + "\n";
 }
 
-// Where the horizontal axis begins.
+// The beginning of the horizontal axis.
 double x_begin(const Figure& figure, double x_end) {
   if (!figure.logarithmic) return 0.0;
   double least = 0.1 * x_end;

@@ -18,12 +18,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// gnuplot reports no full disk; a picture without its end shows it.
+// gnuplot does not report a full disk, but the picture then lacks its end.
 bool is_whole(const std::string& picture) {
   return picture.find("</svg>") != std::string::npos || picture.find("IEND") != std::string::npos;
 }
 
-// Text as XML may have it: gnuplot writes what is no character, and the end of CDATA, as they are.
+// Makes text valid in XML: gnuplot passes control characters and the end of CDATA through unchanged.
 std::string text_of_xml(std::string text) {
   text = shown_text(text);
   for (std::size_t at = 0; (at = text.find("]]>", at)) != std::string::npos; at += 3) text.insert(at + 2, 1, ' ');
@@ -47,7 +47,7 @@ std::string gnuplot_quoted(const std::string& text) {
 bool run_gnuplot(const std::string& script, const std::string& data, const std::vector<GnuplotPicture>& pictures) {
   const std::string gnuplot = find_program("gnuplot");
   if (gnuplot.empty()) return false;
-  // Beside the picture, where there must be room anyway.
+  // Beside the picture, where room is needed anyway.
   const ScratchFolder scratch(fs::path(pictures.front().path).parent_path(), "carom-plot");
   const std::string log = scratch.path() / "log";
   write_file(scratch.path() / "data", data);

@@ -13,7 +13,8 @@ namespace carom {
 
 namespace {
 
-// Okabe and Ito: vermilion, blue, green apart for all common kinds of colour blindness; symbols differ too.
+// Vermilion, blue and green of Okabe and Ito, which can be told apart with all common kinds of colour blindness, and
+// black; symbols differ too.
 constexpr std::array<const char*, 4> series_colours{"#D55E00", "#0072B2", "#009E73", "#000000"};
 constexpr std::array<int, 4> filled{5, 7, 13, 9};  // square, circle, diamond, triangle
 constexpr std::array<int, 4> open{4, 6, 12, 8};
@@ -57,7 +58,7 @@ void add_block(std::string& data, const std::vector<LogPoint>& points, bool boun
   data += any ? "\n\n" : "NaN NaN NaN NaN\n\n\n";
 }
 
-// The commands that draw one curve, whose two blocks of data (seen, bounds) begin at `block`.
+// The commands that draw one curve, whose two blocks of data (values, bounds) begin at `block`.
 std::string plot_commands(const LogCurve& curve, std::size_t block) {
   const std::size_t s = style_of(curve.style);
   const double width = curve.faint ? 1.0 : 1.6, size = curve.faint ? 0.42 : 0.62;
@@ -70,7 +71,7 @@ std::string plot_commands(const LogCurve& curve, std::size_t block) {
   return text;
 }
 
-// Title, names and remark of a panel whose upper left corner is there, from top to bottom.
+// Title, names and remark of the panel with this upper left corner, from top to bottom.
 std::string head_commands(const LogPanel& panel, const Page& page, double left, double top) {
   const double from = (left + left_margin) / page.width;
   const double to = (left + panel_width - right_margin) / page.width;
@@ -94,7 +95,7 @@ std::string head_commands(const LogPanel& panel, const Page& page, double left, 
   return text + label(panel.remark, to, down, "right", fmt::format("font ',10' textcolor rgb '{}'", note_grey));
 }
 
-// Ticks at every decade, at every third or so where there are many.
+// Ticks at every decade; if there are many, at every second or third.
 std::string ticks(const char* axis, double low, double high) {
   const double decades = std::log10(high / low);
   const int step = decades > 9.0 ? 3 : decades > 4.5 ? 2 : 1;
@@ -150,7 +151,7 @@ std::string page_commands(const LogFigure& figure, const Page& page) {
       "set grid lc rgb '#e6e6e6' lt 1 lw 0.5\nset xlabel font ',11'\nset ylabel font ',11'\n"
       "set label 1000 {} at screen 0.012, screen {} left font ',17' noenhanced\n",
       gnuplot_quoted(figure.title), 1.0 - 22.0 / page.height);
-  // Headings and caption belong to the page: drawn once, with the first panel, as numbered labels that stay.
+  // Headings and caption belong to the page: they are drawn once, with the first panel, as numbered labels that stay.
   std::string page_labels = caption_lines(figure, page);
   double top = title_height;
   for (const LogSection& section : figure.sections) {

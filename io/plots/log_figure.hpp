@@ -1,5 +1,5 @@
-// A page of small panels with logarithmic axes, as gnuplot draws it: curves of errors, whose names stand above the
-// panel, where no curve runs.
+// A page of small panels with logarithmic axes, drawn by gnuplot: curves of errors, whose names are above the panel,
+// where there is no curve.
 #pragma once
 
 #include <string>
@@ -10,16 +10,16 @@ namespace carom {
 struct LogPoint {
   double x = 0.0, y = 0.0;  // > 0
   double error = 0.0;       // standard error of y; 0 draws no bar
-  bool bound = false;       // y is only a bound from above: drawn open, and not joined to its neighbours
+  bool bound = false;       // y is only an upper bound: drawn open, and not joined to its neighbours
 };
 
-// Colour and symbol of a curve are those of its style, the same in every panel.
+// The style of a curve sets its colour and symbol, the same in every panel.
 struct LogCurve {
   int style = 0;                 // 0, 1, 2, ...
-  std::string name;              // written above the panel, in the curve's colour; empty: nowhere
+  std::string name;              // above the panel, in the curve's colour; not shown if empty
   std::vector<LogPoint> points;  // in the order in which they are joined
   bool faint = false;            // thin and dashed: a second quantity of the same method
-  bool name_left = false;        // at the left end of the first line of names; the others have a line each at the right
+  bool name_left = false;  // at the left end of the first line of names; other names have a line each at the right
 };
 
 struct LogPanel {

@@ -18,7 +18,7 @@ VelocityRecord::Curve* find_curve(VelocityRecord& record, DiskId id) {
   return nullptr;
 }
 
-// Disks not seen before, lowest ids first, until there are ten. Ids only grow, so the order stays ascending.
+// Adds disks not seen before, lowest ids first, until there are ten. Ids only grow, so the order stays ascending.
 void adopt_newcomers(VelocityRecord& record, const Disks& disks) {
   for (const std::size_t i : by_id(disks)) {
     if (record.curves.size() == most_velocity_curves) return;
@@ -27,7 +27,7 @@ void adopt_newcomers(VelocityRecord& record, const Disks& disks) {
   }
 }
 
-// Quantiles of more values than this tell no more to the eye.
+// Quantiles of a larger sample would look the same.
 constexpr std::size_t most_sampled = 20'000;
 
 // One component of the velocities in a frame.
@@ -36,7 +36,7 @@ struct Component {
   std::vector<double> sample;
 
   void add(double velocity, bool sampled) {
-    velocity += 0.0;  // -0 becomes 0: in a file they differ, and which of them is the least hung on the order
+    velocity += 0.0;  // -0 becomes 0: their text differs, and which one is the least would depend on the order
     least = std::min(least, velocity);
     greatest = std::max(greatest, velocity);
     if (sampled) sample.push_back(velocity);
@@ -68,11 +68,11 @@ VelocityBand band_of(const DisksInPieces& disks) {
     });
   };
   look((disks.size() + most_sampled - 1) / most_sampled);
-  if (x.sample.empty()) look(1);  // ids may all lie between the multiples
+  if (x.sample.empty()) look(1);  // possible if all ids are between the multiples
   return {disks.time(), x.levels(), y.levels()};
 }
 
-// The next points of the curves of these disks.
+// Adds the next points of the curves of these disks.
 void add_points(VelocityRecord& record, const Disks& disks, double time) {
   if (record.curves.empty()) return;
   const DiskId last = record.curves.back().id;
@@ -86,7 +86,7 @@ void add_points(VelocityRecord& record, const Disks& disks, double time) {
   }
 }
 
-// One component of all disks: the bands, their edges with names, and the median.
+// The panel of one component of all disks: the bands, their edges with names, and the median.
 Panel band_panel(const char* y_label, const VelocityRecord& record,
                  std::array<double, velocity_levels> VelocityBand::*component) {
   constexpr std::array<const char*, velocity_levels> names{"least", "5 %",  "25 %",    "median",
@@ -110,7 +110,7 @@ Panel band_panel(const char* y_label, const VelocityRecord& record,
   return panel;
 }
 
-// What the total has beyond the other two, which is that of rough disks' spins; empty where that is but rounding.
+// The total energy less the other two, which is that of rough disks' spins; empty if it is only rounding.
 std::vector<double> rotational(const EnergyRecord& record) {
   std::vector<double> energy;
   bool there = false;
@@ -152,7 +152,7 @@ bool plot_velocity(const std::string& path, const std::string& title, const Velo
 }
 
 bool plot_energy(const std::string& path, const std::string& title, const EnergyRecord& record) {
-  // From zero: without it the axis would zoom into rounding errors of a total that is constant.
+  // From zero: otherwise the axis would zoom into the rounding errors of a constant total.
   Panel panel{.y_label = "energy", .from_zero = true, .wide_first = true};
   panel.lines.push_back({"total", record.t, record.total});
   panel.lines.push_back({"kinetic", record.t, record.kinetic});

@@ -10,17 +10,17 @@
 
 namespace carom {
 
-// How the velocities of all disks are distributed in a frame: of each component the least, the quantiles 5, 25, 50, 75
-// and 95 %, and the greatest. The quantiles are those of every k-th disk by id where there are very many.
+// The distribution of the velocities of all disks in a frame: for each component the least value, the quantiles 5, 25,
+// 50, 75 and 95 %, and the greatest. If there are very many disks, the quantiles are those of every k-th disk by id.
 inline constexpr std::size_t velocity_levels = 7;
 struct VelocityBand {
   double t = 0.0;
   std::array<double, velocity_levels> vx{}, vy{};
 };
 
-// Velocities of up to 10 disks, those with the lowest ids, at every frame. Where a source emits disks, they fill up
-// the ten as they come; a disk that a sink took has no further points. Where there are more disks in any frame, the
-// plot shows the bands in place of the curves.
+// Velocities of up to 10 disks, those with the lowest ids, in every frame. If a source emits disks, they complete the
+// ten as they come; a disk that a sink took has no further points. If any frame has more disks, the plot shows the
+// bands instead of the curves.
 struct VelocityRecord {
   struct Curve {
     DiskId id = 0;
@@ -29,7 +29,7 @@ struct VelocityRecord {
   std::vector<Curve> curves;  // ascending ids
   double end = 0.0;           // time of the last frame
   std::vector<VelocityBand> bands;
-  Count most = 0;  // disks in a frame
+  Count most = 0;  // largest number of disks in a frame
 };
 inline constexpr std::size_t most_velocity_curves = 10;
 
@@ -42,8 +42,8 @@ struct EnergyRecord {
   std::vector<double> t, kinetic, potential, total;
 };
 
-// Both draw title and curves to an SVG file. They return false, and write nothing, where gnuplot is not installed.
-// Throw RunError if gnuplot fails or the file cannot be written.
+// Both draw title and curves to an SVG file. They return false, and write nothing, if gnuplot is not installed. They
+// throw RunError if gnuplot fails or the file cannot be written.
 bool plot_velocity(const std::string& path, const std::string& title, const VelocityRecord& record);
 bool plot_energy(const std::string& path, const std::string& title, const EnergyRecord& record);
 
