@@ -1,4 +1,4 @@
-// Which disks a trajectory shows, and in which of its places.
+// The disks that a trajectory shows, and their places in it.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +18,9 @@ inline bool is_selected(const Selection& select, const Disks& disks, std::size_t
 
 inline constexpr std::uint32_t no_disk = 0xffffffffU;
 
-// Storage index by place, no_disk where there is none. By stride, the disk k * stride (counted from the first of a
-// group) has place k for ever, and places of disks that are gone stay empty; in a region, disks come and go, and take
-// places 0, 1, ... in order of id. least: number of places at least.
+// Fills places with the storage index of the disk at each, no_disk if there is none. By stride, the disk k * stride
+// (counted from the first of a group) always has place k, and places of disks that are gone stay empty; in a region,
+// disks come and go, and take places 0, 1, ... in order of id. least: the least number of places.
 void find_places(const Selection& select, const Disks& disks, std::size_t least, std::vector<std::uint32_t>& places);
 
 }  // namespace carom

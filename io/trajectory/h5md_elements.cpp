@@ -35,7 +35,7 @@ H5mdColumn column(const std::string& name, bool whole) {
 std::vector<H5mdElement> h5md_elements(const Scene& scene, bool images) {
   const Hdf5Kind place_kind = scene.output.single_precision ? single_kind() : double_kind();
   const auto components = static_cast<hsize_t>(scene.output.dimensions);
-  const bool moving = scene.output.select.by_region;  // places change hands
+  const bool moving = scene.output.select.by_region;  // a place may belong to another disk in each frame
   std::vector<H5mdElement> elements;
   const auto add = [&](H5mdQuantity quantity, const char* name, Hdf5Kind kind, hsize_t width) {
     elements.push_back({quantity, of_disks(name) + "/value", kind, width, true, {}});
@@ -75,7 +75,7 @@ std::vector<H5mdColumn> h5md_columns(const Scene& scene) {
     columns.push_back(column(fmt::format("/observables/{}/value", c.name), c.whole));
   }
   if (scene.output.dimensions == 3) {
-    // MDAnalysis takes the box of each frame for three vectors.
+    // MDAnalysis expects three vectors as the box of each frame.
     H5mdColumn& edges = columns.emplace_back(column(of_disks("box/edges/value"), false));
     edges.shape = {3, 3};
     edges.constant = {scene.box.width, 0.0, 0.0, 0.0, scene.box.height, 0.0, 0.0, 0.0, 1.0};

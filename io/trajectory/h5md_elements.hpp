@@ -1,5 +1,5 @@
-// The datasets of trajectory.h5 that are written frame by frame, as two tables: what each disk has, and what each frame
-// has (h5md_layout.hpp).
+// The datasets of trajectory.h5 that are written frame by frame, as two tables: those with a value for each disk, and
+// those with a value for each frame (h5md_layout.hpp).
 #pragma once
 
 #include <string>
@@ -12,7 +12,8 @@
 
 namespace carom {
 
-// What every disk has: one value or several (x, y and perhaps z), at a place of its own, in each frame or once for all.
+// A quantity of every disk: one value or several (x, y and possibly z), at the disk's place, in each frame or only
+// once.
 struct H5mdElement {
   H5mdQuantity quantity = H5mdQuantity::position;
   std::string name;  // of the dataset
@@ -29,11 +30,11 @@ struct H5mdColumn {
   Hdf5Kind kind;
   Hdf5Handle set;
   std::vector<double> values;
-  Extent shape;                  // of what a frame has, where it is more than a number
-  std::vector<double> constant;  // in every frame
+  Extent shape;                  // of a frame's values, if they are more than a number
+  std::vector<double> constant;  // the same in every frame
 };
 
-// Positions first. images: with the rounds of each disk across the periodic sides.
+// Positions first. images: with the number of times that each disk has crossed each periodic side (net).
 std::vector<H5mdElement> h5md_elements(const Scene& scene, bool images);
 
 // Which of series_columns the file has.
@@ -42,10 +43,10 @@ std::vector<std::size_t> observables_of(const Scene& scene);
 // The step first, then observables_of(scene), those of the rotation, those of groups, and the time last.
 std::vector<H5mdColumn> h5md_columns(const Scene& scene);
 
-// The group that a dataset lies in.
+// The group that contains a dataset.
 std::string parent_group(const std::string& dataset);
 
-// Lengths of a column over so many frames.
+// The lengths of a column with this number of frames.
 Extent shape_of(const H5mdColumn& column, Count frames);
 
 }  // namespace carom

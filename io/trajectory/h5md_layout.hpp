@@ -1,4 +1,4 @@
-// How trajectory.h5 is laid out: H5MD 1.1 (de Buyl, Colberg, Hoefling 2014), shared by its writer and its reader.
+// The layout of trajectory.h5: H5MD 1.1 (de Buyl, Colberg, Hoefling 2014), shared by its writer and its reader.
 #pragma once
 
 #include <cstdint>

@@ -43,7 +43,7 @@ struct H5mdReader::File {
   std::string path;
   Hdf5Handle file, position, velocity, id, radius, mass, species;
   Hdf5Handle spin;   // of rough disks
-  Hdf5Handle image;  // where sides are periodic
+  Hdf5Handle image;  // if sides are periodic
   bool has_spin = false, has_image = false;
   Domain box;
   std::vector<double> times;
@@ -57,13 +57,14 @@ H5mdReader::File::File(const std::string& file_path) : path(file_path) {
   silence_hdf5();
   hid_t opened = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (opened < 0) {
-    // Killed between two writes: the file is whole, and says that it is being written. HDF5 would read what fails its
-    // checksum a hundred times, and wait twice as long, from 1 ns on, before each: for ever where the file is damaged.
+    // The writer was killed between two writes: the file is consistent, but marked as being written. By default HDF5
+    // reads data whose checksum is wrong a hundred times, and waits before each attempt twice as long, from 1 ns on:
+    // practically for ever in a damaged file.
     constexpr unsigned attempts = 20;
     const Hdf5Handle access = checked(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     if (H5Pset_metadata_read_attempts(access.get(), attempts) < 0) fail(hdf5_reason());
     opened = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access.get());
-    if (opened < 0) fail_to_open(hdf5_reason());  // asked before access is closed, which forgets it
+    if (opened < 0) fail_to_open(hdf5_reason());  // must be read before access is closed, which clears it
   }
   file = checked(opened, H5Fclose);
   read_box();
@@ -108,7 +109,7 @@ void H5mdReader::File::read_box() {
                           H5Lexists(file.get(), (name + "/value").c_str(), H5P_DEFAULT) > 0;
   const Hdf5Handle edges = open_set(each_frame ? "box/edges/value" : "box/edges");
   const std::vector<hsize_t> size = size_of(edges);
-  // Three vectors a frame, the same in all: those of the first will do.
+  // Three vectors in each frame, equal in all of them: those of the first frame are enough.
   std::vector<double> lengths(each_frame ? 9 : 2);
   if (each_frame) {
     if (size.size() != 3 || size[1] != 3 || size[2] != 3) fail("has no box of three edges");
@@ -132,7 +133,7 @@ void H5mdReader::File::read_box() {
   if (words.compare(width, 8, "periodic") == 0) box.sides[2] = box.sides[3] = SideKind::periodic;
 }
 
-// One frame of a dataset, or all of one that has no frames.
+// Reads one frame of a dataset, or all of one without frames.
 template <class T>
 void H5mdReader::File::read_row(const Hdf5Handle& set, hid_t type, Count frame, std::vector<T>& to) const {
   const Hdf5Handle space = checked(H5Dget_space(set.get()), H5Sclose);
@@ -161,7 +162,7 @@ void H5mdReader::File::read_frame(Count next, TrajectoryFrame& frame) {
   read_row(species, H5T_NATIVE_UINT32, next, groups);
   if (has_spin) read_row(spin, H5T_NATIVE_DOUBLE, next, spins);
   if (has_image) read_row(image, H5T_NATIVE_INT32, next, images);
-  // A writer killed while places were added has lengthened some datasets and not the others, for frames to come.
+  // A writer that was killed while places were added may have lengthened only some datasets for frames to come.
   std::size_t places = std::min({ids.size(), xy.size() / dimensions, vxy.size() / dimensions});
   if (has_spin) places = std::min(places, spins.size());
   if (has_image) places = std::min(places, images.size() / dimensions);
@@ -198,8 +199,8 @@ H5mdReader::H5mdReader(const std::string& path, bool growing)
 
 H5mdReader::~H5mdReader() = default;
 
-// HDF5 keeps what it knows of a file while that is open, so it is opened anew. Where it cannot be, as it is being
-// moved, there is no more for now.
+// HDF5 keeps what it knows of a file while that is open, so it is opened anew. If that fails, since the file is being
+// moved, there are no more frames for now.
 bool H5mdReader::has_more() {
   if (file_ && next_ < file_->times.size()) return true;
   if (!growing_) return false;

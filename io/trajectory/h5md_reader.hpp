@@ -9,11 +9,11 @@ namespace carom {
 class H5mdReader : public TrajectoryReader {
  public:
   // Opens a finished file, one being written, and one whose writer was killed. Throws InputError for anything else.
-  // growing: a run is writing it, and read() looks anew for frames where there was none.
+  // growing: a run is writing it, and read() looks again for new frames at the end.
   explicit H5mdReader(const std::string& path, bool growing = false);
   ~H5mdReader() override;
 
-  // Single precision comes widened. Throws InputError where the file is damaged.
+  // Numbers of single precision are converted to double. Throws InputError if the file is damaged.
   bool read(TrajectoryFrame& frame) override;
   bool skip() override;
   void follow(const std::string& path) override { path_ = path; }

@@ -13,14 +13,14 @@ namespace carom {
 
 namespace {
 
-// A number of the file's precision.
+// A number in the file's precision.
 template <class T, class Value>
 T rounded(Value value) {
   if constexpr (std::is_same_v<T, float>) return single_of(value, "trajectory.h5");
   return static_cast<T>(value);
 }
 
-// value(i) of the disk at each place; nothing where there is none.
+// Writes value(i) of the disk i at each place, and `nothing` where there is no disk.
 template <class T, class Value>
 void fill_with(std::vector<unsigned char>& buffer, const H5mdPlaces& places, T nothing, Value value) {
   buffer.resize((places.end - places.begin) * sizeof(T));
@@ -37,7 +37,7 @@ struct Vector {
   std::array<T, n> components;
 };
 
-// x(i) and y(i) of the disk i, and 0 where there is a third component.
+// Writes x(i) and y(i) of the disk i at each place, and 0 as a third component if there is one.
 template <class T, class X, class Y>
 void fill_with_vectors(std::vector<unsigned char>& buffer, const H5mdPlaces& places, int dimensions, T nothing, X x,
                        Y y) {

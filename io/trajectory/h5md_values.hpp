@@ -1,4 +1,4 @@
-// What trajectory.h5 says of the disk at each place, as the bytes that go into the file.
+// The values of trajectory.h5 for the disk at each place, as bytes of the file.
 #pragma once
 
 #include <cstddef>
@@ -19,16 +19,16 @@ struct H5mdPlaces {
   std::size_t begin = 0, end = 0;
 };
 
-// How a file writes them.
+// The form of the values in a file.
 struct H5mdForm {
   bool single = false;                        // positions, velocities and spins in single precision
-  int dimensions = 2;                         // their components, and those of the image
+  int dimensions = 2;                         // of these, and of the image
   std::vector<DiskId> group_ends;             // for the species, see disk_group.hpp
   const DisplacementTally* rounds = nullptr;  // for the image
 };
 
-// Writes the quantity of these places to buffer, one after the other (x, y and perhaps z in turn), the fill values of
-// h5md_layout.hpp where there is no disk. Throws InputError for a number that single precision does not reach.
+// Writes the quantity at these places to buffer, one after the other (x, y and possibly z in turn), with the fill
+// values of h5md_layout.hpp where there is no disk. Throws InputError for a number beyond single precision.
 void fill_with_values(H5mdQuantity quantity, const H5mdForm& form, const Disks& disks, const H5mdPlaces& places,
                       std::vector<unsigned char>& buffer);
 

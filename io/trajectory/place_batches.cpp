@@ -9,7 +9,7 @@ namespace carom {
 
 namespace {
 
-// Places that are worth a call: enough chunks to pack on several threads, some megabytes of disks.
+// The least number of places for a call: enough chunks to pack on several threads, some megabytes of disks.
 constexpr std::size_t least_batch = std::size_t{1} << 16;
 
 std::size_t place_of(const Selection& select, DiskId id) {
@@ -21,7 +21,7 @@ class Batches {
   Batches(const Selection& select, std::size_t chunk, const std::function<void(const PlaceBatch&)>& use)
       : select_(select), chunk_(chunk), use_(use) {}
 
-  // The next piece.
+  // Adds the next piece.
   void add(const Disks& some) {
     carried_.inertia = some.inertia;
     for (const std::size_t i : by_id(some)) {

@@ -1,5 +1,5 @@
-// The disks that a trajectory shows by their places (disk_selection.hpp), batch after batch, whatever pieces they come
-// in.
+// The disks that a trajectory shows in order of their places (disk_selection.hpp), batch after batch, whichever pieces
+// they come in.
 #pragma once
 
 #include <cstddef>
@@ -12,32 +12,32 @@
 
 namespace carom {
 
-// Of places first to first + count - 1: the storage index at each, or no_disk; disk_at may go on behind them.
+// Places first to first + count - 1, with the storage index at each, or no_disk; disk_at may continue behind them.
 struct PlaceBatch {
   const Disks& disks;
   const std::vector<std::uint32_t>& disk_at;
   std::size_t first = 0, count = 0;
 };
 
-// The places of one frame's disks, which are visited once for each of their quantities.
+// The places of one frame's disks, which are visited once for each quantity.
 class FramePlaces {
  public:
-  // All outlive this. chunk: places that are written together.
+  // All arguments outlive this. chunk: number of places that are written together.
   FramePlaces(const Selection& select, const DisksInPieces& disks, std::size_t chunk)
       : select_(select), disks_(disks), chunk_(chunk) {}
 
-  // How many there are up to the last that has a disk.
+  // The number of places up to the last one with a disk.
   std::size_t count() const;
 
-  // Calls use() for all of these places, in order. Batches are of whole chunks, but for the last; disks that come in
-  // one piece are one batch, of others there are some ten thousand in each.
+  // Calls use() for all of these places, in order. Batches consist of whole chunks, except the last; disks that come in
+  // one piece form one batch, others batches of some ten thousand.
   void visit(const std::function<void(const PlaceBatch&)>& use);
 
  private:
   const Selection& select_;
   const DisksInPieces& disks_;
   std::size_t chunk_;
-  std::vector<std::uint32_t> disk_at_;  // of disks that come in one piece, once they were visited
+  std::vector<std::uint32_t> disk_at_;  // if disks come in one piece, after the first visit
 };
 
 }  // namespace carom

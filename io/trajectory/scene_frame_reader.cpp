@@ -25,14 +25,14 @@ std::string trajectory_of(const std::string& path) {
   const std::string found = trajectory_in(path).string();
   if (!found.empty()) return found;
   const std::filesystem::path unfinished = trajectory_in(std::filesystem::path(path) / unfinished_name);
-  if (!unfinished.empty()) {  // whose last frame is another with each that comes
+  if (!unfinished.empty()) {  // in it the last frame changes while the run goes on
     fail_input(path, "holds a run that is not finished",
                fmt::format("expected a finished one, or the trajectory {}", unfinished.string()));
   }
   fail_input(path, "holds no trajectory.xyz or trajectory.h5", "expected a run with a trajectory");
 }
 
-// Of the run that wrote a frame: the scene.toml beside it, where that is there and is its own.
+// The scene of the run that wrote a frame: the scene.toml beside the trajectory, if that exists and belongs to it.
 std::optional<Scene> scene_of(const std::string& trajectory, const TrajectoryFrame& frame) {
   const std::filesystem::path file = std::filesystem::path(trajectory).parent_path() / "scene.toml";
   if (!std::filesystem::exists(file)) return {};
@@ -47,7 +47,7 @@ std::optional<Scene> scene_of(const std::string& trajectory, const TrajectoryFra
 // Times of frames are sums and products of steps: 0.3 may be 0.30000000000000004.
 constexpr double frame_time_slack = 1e-9;
 
-// A time before the first frame or after the last has none that was meant.
+// A time before the first frame or after the last one cannot be meant for any frame.
 void check_time(const std::string& path, double asked, double first, double last) {
   const double slack = frame_time_slack * std::abs(asked);
   if (asked >= first - slack && asked <= last + slack) return;
@@ -55,13 +55,14 @@ void check_time(const std::string& path, double asked, double first, double last
              fmt::format("expected a time from {:g} to {:g}, that of the last frame", first, last));
 }
 
-// Absent where nothing tells. A shear takes a box that is periodic both ways, and such a run without one counts rounds.
+// The shear rate, absent if it is not known. A shear requires a box that is periodic in both directions, and a run in
+// such a box without a shear counts rounds.
 std::optional<double> shear_rate_of(const std::optional<Scene>& scene, const TrajectoryFrame& frame) {
   if (!frame.box.periodic_x() || !frame.box.periodic_y() || !frame.image_x.empty()) return 0.0;
   return scene ? std::optional(scene->box.shear.rate) : std::nullopt;
 }
 
-// Which disks of the frame are wanted: all, or those of the group that its run gave this name.
+// Which disks of the frame are chosen: all, or those of the group that its run gave this name.
 std::vector<bool> members_of(const std::string& path, const TrajectoryFrame& frame, const std::optional<Scene>& scene,
                              const std::string& name) {
   std::vector<bool> members(frame.disks.size(), true);

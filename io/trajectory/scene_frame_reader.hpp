@@ -5,7 +5,7 @@
 
 namespace carom {
 
-// The frame asked for, from a trajectory of any format or a run's folder. Throws InputError.
+// The requested frame, from a trajectory of any format or a run's folder. Throws InputError.
 SceneFrame read_scene_frame(const FrameAsked& asked);
 
 }  // namespace carom

@@ -10,7 +10,7 @@
 
 namespace carom {
 
-// The nearest number of single precision; 0 below 1e-45. Throws InputError, which names the file, beyond 3.4e38.
+// The nearest number in single precision; 0 below 1e-45. Throws InputError, naming the file, beyond 3.4e38.
 inline float single_of(double value, std::string_view file) {
   const auto single = static_cast<float>(value);
   if (std::isinf(single)) {

@@ -14,11 +14,12 @@ namespace carom {
 
 namespace {
 
-// Times of frames are sums and products of steps: 0.3 may be 0.30000000000000004. Relative to the time: what is short
-// depends on the scene's unit, and a time of 0 is not rounded.
+// Times of frames are sums and products of steps: 0.3 may be 0.30000000000000004. Relative to the time: what is small
+// depends on the scene's units, and a time of 0 is not rounded.
 constexpr double time_slack = 1e-9;
 
-// Is what differs by so much a difference? Called for values of different bits only; a difference that is no number is.
+// Does a difference of this size count? Called only for values of different bits; a difference that is not a number
+// counts.
 bool counts(const CompareRule& rule, double by) {
   return !rule.tolerance || !(by <= *rule.tolerance);
 }
@@ -31,7 +32,7 @@ bool compares_all(const CompareRule& rule) {
   return std::find(rule.fields.begin(), rule.fields.end(), false) == rule.fields.end();
 }
 
-// Of compared_quantities.
+// Indices into compared_quantities.
 constexpr std::size_t spin_at = 6, group_at = 7, image_x_at = 8, image_y_at = 9;
 
 using Quantities = std::array<double, compared_quantities.size()>;
@@ -51,8 +52,8 @@ Quantities quantities_of(const TrajectoryFrame& frame, std::size_t i) {
           whole(frame.image_y)};
 }
 
-// Rounds between two disks that went `apart` = a - b and these rounds: beside each other across a side, where places
-// differ by a period, the rounds make up for it.
+// The difference in rounds of two disks whose coordinates differ by `apart` = a - b: of two disks close to each other
+// across a side coordinates differ by a period, and rounds by one in the opposite direction.
 double rounds_between(double rounds, double apart, double period) {
   return std::abs(rounds + std::round((apart - nearest_image(apart, period)) / period));
 }
@@ -66,14 +67,14 @@ double distance(const Domain& box, std::size_t quantity, const Quantities& a, co
   return std::abs(d);
 }
 
-// Does a difference of one disk count? The tolerance is a length for rounds, too; groups are no numbers.
+// Does a difference of one disk count? For rounds, too, the tolerance is a length; groups are not numbers.
 bool counts(const CompareRule& rule, const Domain& box, std::size_t quantity, double by) {
   if (quantity == group_at) return true;
   const double period = quantity == image_x_at ? box.width : quantity == image_y_at ? box.height : 1.0;
   return counts(rule, by * period);
 }
 
-// The frames of a file that a rule wants, one after another.
+// The frames of a file that match a rule, one after another.
 class ChosenFrames {
  public:
   ChosenFrames(std::string path, const CompareRule& rule)
@@ -89,9 +90,9 @@ class ChosenFrames {
   }
 
   TrajectoryFrame frame;
-  double time = 0.0;  // of the last frame that was wanted
+  double time = 0.0;  // of the last matching frame
   Count number = 0;   // of the frame in its file, from 1
-  Count count = 0;    // of frames so far that were wanted
+  Count count = 0;    // of matching frames so far
 
  private:
   bool read(TrajectoryFrame& into) {
@@ -148,7 +149,7 @@ class Comparison {
   bool saw_spins() const { return saw_spins_; }
   bool lacks_rounds() const { return lacks_rounds_; }
 
-  // Both frames list their disks in order of id.
+  // Both frames have their disks in order of id.
   void compare(const TrajectoryFrame& a, const TrajectoryFrame& b, Count number) {
     saw_disks_ = saw_disks_ || !a.disks.empty() || !b.disks.empty();
     saw_spins_ = saw_spins_ || !a.disks.spin.empty() || !b.disks.spin.empty();
@@ -228,7 +229,7 @@ class Comparison {
   bool has_rounds_ = false, lacks_rounds_ = false;
 };
 
-// Where all fields are compared, and none was asked for by its name, what neither has is no matter.
+// Is the quantity requested by its name? If all fields are compared, quantities that neither file has do not matter.
 bool asks_for(const CompareRule& rule, std::size_t quantity) {
   return rule.fields[quantity] && !compares_all(rule);
 }

@@ -26,8 +26,8 @@ namespace carom {
 
 namespace {
 
-// The places of chunks in the file depend on when it is flushed, and equal runs must leave equal files: so flushes
-// follow the work of the run, not a clock, in units of about 100 ns: a disk moved a step, a tenth of a collision of
+// The places of chunks in the file depend on when it is flushed, and equal runs must write equal files: so flushes
+// follow the work of the run, not a clock. Its unit is about 100 ns: a disk moved in a step, a tenth of a collision of
 // exact motion, a tenth of a disk written. A run on one core flushes about twice a second.
 constexpr double flush_work = 5e6;
 constexpr double work_of_collision = 10.0, work_of_disk_written = 10.0, work_of_step = 10.0;
@@ -36,12 +36,12 @@ double work_done(Count steps, double collisions, double disks) {
   return static_cast<double>(steps) * (disks + work_of_step) + work_of_collision * collisions;
 }
 
-// Places a chunk: 256 KiB of positions, enough to pack well, little to read for a few disks.
+// Places in a chunk: 256 KiB of positions, enough to be packed well, and little to read for a few disks.
 constexpr hsize_t largest_chunk = 16384;
-constexpr hsize_t smallest_open_chunk = 256;  // where sources may add disks
+constexpr hsize_t smallest_open_chunk = 256;  // if sources may add disks
 constexpr hsize_t frames_per_column_chunk = 1024;
 
-// A chunk on its way into the file, and the room to pack it.
+// A chunk to be written, and the memory to pack it.
 struct Packer {
   std::vector<unsigned char> buffer;
   ShuffledDeflate deflate;
@@ -59,13 +59,14 @@ Count disks_at_start(const Scene& scene) {
   return disks;
 }
 
-// How many places a file has whatever comes later, and whether anything may come.
+// The number of places that a file has in any case.
 Count places_at_start(const Selection& select, Count disks) {
   if (select.by_region) return 0;
   const Count end = std::min<Count>(select.ids.end, disks);
   return end > select.ids.first ? (end - select.ids.first + select.stride - 1) / select.stride : 0;
 }
-// next_id: of the disks so far, beyond those of the scene where a program has added some.
+// May more places be added? next_id: of the state's disks; larger than the number of disks of the scene if a program
+// has added some.
 bool may_grow(const Selection& select, const Scene& scene, Count disks, DiskId next_id) {
   return select.by_region || ((!scene.sources.empty() || next_id > disks) && select.ids.end > disks);
 }
@@ -104,7 +105,8 @@ struct H5mdWriter::File {
   Count frames = 0, flushed_frames = 0;
   std::vector<H5mdElement> elements;       // positions first
   std::vector<std::size_t> shown_columns;  // of series_columns
-  std::vector<H5mdColumn> columns;  // step, the observables, and time, which says how many frames are whole, at last
+  std::vector<H5mdColumn>
+      columns;  // step, the observables, and last the time, which shows how many frames are complete
   GroupMeter groups;
   std::vector<Packer> packers = std::vector<Packer>(chunks_at_once);
   double work_seen = 0.0;  // of the run, at the last frame
@@ -135,7 +137,7 @@ H5mdWriter::File::~File() {
   output.abandon();
 }
 
-// All that does not change.
+// Writes all that does not change.
 void H5mdWriter::File::describe(const Scene& scene) const {
   for (const char* const group : {"/h5md", "/h5md/author", "/h5md/creator", "/parameters", "/particles", h5md_disks}) {
     output.make_group(group);
@@ -152,7 +154,7 @@ void H5mdWriter::File::describe(const Scene& scene) const {
   std::vector<std::string> boundaries{boundary(scene.box.periodic_x()), boundary(scene.box.periodic_y())};
   if (form.dimensions == 3) boundaries.push_back(boundary(false));
   output.attribute(box, "boundary", boundaries);
-  if (form.dimensions == 3) return;  // its edges are a column
+  if (form.dimensions == 3) return;  // the edges are a column then
   const std::array<double, 2> edges{scene.box.width, scene.box.height};
   const Hdf5Handle set = output.make_dataset(box + "/edges", double_kind(), {2}, {2}, {2}, Packing::plain);
   output.write_block(set, double_kind(), {0}, {2}, edges.data());
@@ -163,7 +165,7 @@ void H5mdWriter::File::make_elements() {
   for (H5mdElement& e : elements) {
     const hsize_t limit = growing ? H5S_UNLIMITED : std::max<hsize_t>(1, places);
     if (!e.each_frame) {
-      // Packed chunks cannot be added to in place without losing room, so that only what is written once is packed.
+      // A packed chunk cannot be extended in place without losing space, so only data that are written once are packed.
       e.set =
           output.make_dataset(e.name, e.kind, {places}, {limit}, {chunk}, growing ? Packing::plain : Packing::deflate);
       continue;
@@ -210,7 +212,7 @@ void H5mdWriter::File::open_elements(Count kept) {
   for (H5mdElement& e : elements) {
     Extent size = output.size_of(e.set);
     if (!e.each_frame) {
-      known = std::min(known, size.at(0));  // a kill may have come between it and the others
+      known = std::min(known, size.at(0));  // a kill may have come between writing it and the others
       continue;
     }
     size[0] = kept;
@@ -220,8 +222,8 @@ void H5mdWriter::File::open_elements(Count kept) {
   for (H5mdColumn& c : columns) output.resize(c.set, shape_of(c, kept));
 }
 
-// Of the frame's row of an element these places, chunk by chunk. Chunks without a disk are not written: they read as
-// fill values.
+// Writes these places of an element in the frame's row, chunk by chunk. Chunks without a disk are not written: reading
+// them gives fill values.
 void H5mdWriter::File::write_element(H5mdElement& e, const PlaceBatch& batch, const BlockRunner& run) {
   Extent begin{frames, 0};
   if (e.components > 1) begin.push_back(0);
@@ -245,8 +247,8 @@ void H5mdWriter::File::write_element(H5mdElement& e, const PlaceBatch& batch, co
   }
 }
 
-// What a disk has for ever, of those of the places first to last - 1 that are in the batch. A disk that came and went
-// since the frame before is never seen: its place keeps the fill values.
+// Writes the constant properties of the disks at places first to last - 1 that are in the batch. A disk that came and
+// went since the frame before has not been noticed: its place keeps the fill values.
 void H5mdWriter::File::write_once(H5mdElement& e, const PlaceBatch& batch, hsize_t first, hsize_t last) {
   const hsize_t here = std::min<hsize_t>(last, batch.first + batch.count);
   for (hsize_t begin = std::max<hsize_t>(first, batch.first); begin < here; begin += chunk) {
@@ -256,7 +258,7 @@ void H5mdWriter::File::write_once(H5mdElement& e, const PlaceBatch& batch, hsize
   }
 }
 
-// Element by element, each from all disks, so that its chunks lie together in the file.
+// Element by element, each for all disks, so that its chunks are next to each other in the file.
 void H5mdWriter::File::write_frame(const DisksInPieces& disks, const BlockRunner& run) {
   FramePlaces frame(select, disks, chunk);
   const hsize_t shown = growing || known < places ? frame.count() : 0;
@@ -268,7 +270,7 @@ void H5mdWriter::File::write_frame(const DisksInPieces& disks, const BlockRunner
       output.resize(e.set, size);
       frame.visit([&](const PlaceBatch& batch) { write_element(e, batch, run); });
     } else if (shown > known) {
-      // As long as what is known: a later writer goes by that.
+      // Exactly as long as what is known, which a later writer relies on.
       if (growing) output.resize(e.set, {shown});
       frame.visit([&](const PlaceBatch& batch) { write_once(e, batch, known, shown); });
     }
@@ -277,7 +279,7 @@ void H5mdWriter::File::write_frame(const DisksInPieces& disks, const BlockRunner
   ++frames;
 }
 
-// The numbers of each frame go last, and among them the times, so that a frame that has a time is whole.
+// The numbers of each frame are written last, with the times at the end, so a frame that has a time is complete.
 void H5mdWriter::File::flush() {
   output.begin_flush();
   if (frames > flushed_frames) {
@@ -352,7 +354,7 @@ void H5mdWriter::write(const DisksInPieces& disks, Count step, const SeriesRow& 
   const double work = work_done(step, row[collisions_column] + row[wall_collisions_column], count);
   f.unflushed_work += std::max(0.0, work - f.work_seen) + work_of_disk_written * count;
   f.work_seen = work;
-  // A column's chunk gets its place in the file with its first value: always then.
+  // A column's chunk gets its place in the file with its first value: so the file is always flushed then.
   const bool begins_chunk = f.frames % frames_per_column_chunk == 1;
   if (begins_chunk || f.unflushed_work > flush_work) f.flush();
 }

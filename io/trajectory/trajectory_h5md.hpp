@@ -12,18 +12,18 @@
 
 namespace carom {
 
-// The file is kept whole at any moment (HDF5's single-writer-multiple-reader mode): what kill -9 leaves opens in any
-// reader, with every frame up to the last flush.
+// The file is consistent at any moment (HDF5's single-writer-multiple-reader mode): after kill -9 any reader can open
+// it, with every frame up to the last flush.
 class H5mdWriter {
  public:
-  // Creates or replaces the file. rounds: how often each disk has gone round the periodic sides, kept by the caller;
-  // null: the file does not contain it. next_id: of the state; beyond the disks of the scene where a program has added
-  // some. Throws RunError where it cannot be written, here and below.
+  // Creates or replaces the file. rounds: how often each disk has gone round the periodic sides, updated by the caller;
+  // if null, the file does not contain it. next_id: of the state; larger than the number of disks of the scene if a
+  // program has added some. Throws RunError if the file cannot be written, as do all functions below.
   H5mdWriter(const std::string& path, const Scene& scene, const DisplacementTally* rounds = nullptr,
              DiskId next_id = 0);
 
-  // Goes on with the file that a writer of this scene left, closed or killed, after its first `frames` frames; what
-  // follows them is cut off. Throws RunError if it has fewer, or was written for other disks.
+  // Continues the file that a writer of this scene left, closed or killed, after its first `frames` frames; later ones
+  // are cut off. Throws RunError if it has fewer, or was written for other disks.
   H5mdWriter(const std::string& path, const Scene& scene, Count frames, const DisplacementTally* rounds = nullptr,
              DiskId next_id = 0);
 
@@ -31,18 +31,18 @@ class H5mdWriter {
   H5mdWriter(const H5mdWriter&) = delete;
   H5mdWriter& operator=(const H5mdWriter&) = delete;
 
-  // One frame: the disks that scene.output.select names. step: what the run has counted; time stepping shows it, an
-  // exact run, whose frames may share a window, shows the number of the frame instead.
+  // Writes one frame: the disks that scene.output.select chooses. step: the run's count of steps; it is written for
+  // time stepping, while an exact run, whose frames may share a window, writes the number of the frame instead.
   void write(const DisksInPieces& disks, Count step, const SeriesRow& row, const BlockRunner& run = run_in_order);
   void write(const Disks& disks, double time, Count step, const SeriesRow& row, const BlockRunner& run = run_in_order) {
     write(WholeDisks(disks, time), step, row, run);
   }
 
   // Hands all frames so far to the system. write() does it about twice a second, by the work of the run and not by a
-  // clock, so that equal runs leave equal files.
+  // clock, so that equal runs write equal files.
   void flush();
 
-  // Where the file has come to; all up to there has been handed to the system.
+  // The present end of the file, up to which everything has been handed to the system.
   FileMark mark();
 
   // Frames in the file.

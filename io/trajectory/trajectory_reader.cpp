@@ -31,7 +31,7 @@ std::filesystem::path trajectory_in(const std::filesystem::path& folder) {
 }
 
 std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path, bool growing) {
-  if (!std::filesystem::is_directory(path)) check_regular_file(path);  // a folder gets the reader's own words
+  if (!std::filesystem::is_directory(path)) check_regular_file(path);  // a folder gets the reader's own message
   std::array<char, 4> head{};
   std::ifstream(path, std::ios::binary).read(head.data(), head.size());
   if (std::string_view(head.data(), head.size()) == "\x89HDF") return std::make_unique<H5mdReader>(path, growing);

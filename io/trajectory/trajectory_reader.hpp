@@ -1,4 +1,4 @@
-// Reading trajectories back, whatever their format.
+// Reading trajectories of any format.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +12,18 @@
 
 namespace carom {
 
-// One frame as read back, disks in order of id; radius and mass always come as columns, spin where disks are rough, of
-// which the moment of inertia is not known. Of the box, files have size and periodic sides; all others appear as walls.
+// One frame, with disks in order of id; radius and mass are always columns, and so is spin if disks are rough, but
+// their moment of inertia is not known. Files have only size and periodic sides of the box; all other sides are walls
+// here.
 struct TrajectoryFrame {
   Disks disks;
   double time = 0.0;
   Domain box;
-  std::vector<DiskId> group;  // of each disk (disk_group.hpp); empty where the file does not have it
-  // How often each has gone round across the periodic sides, since the file's first frame that shows it; likewise.
+  std::vector<DiskId> group;  // of each disk (disk_group.hpp); empty if the file does not have it
+  // How often each disk has gone round across the periodic sides since the file's first frame with it; may be empty,
+  // too.
   std::vector<std::int32_t> image_x, image_y;
-  // What the file has of disks: a frame without any shows it nowhere else.
+  // What the file has for disks, which a frame without any disk would not show otherwise.
   bool has_groups = false, has_images = false, has_spins = false;
 };
 
@@ -38,29 +40,29 @@ class TrajectoryReader {
   TrajectoryReader& operator=(const TrajectoryReader&) = delete;
   virtual ~TrajectoryReader() = default;
 
-  // The next frame, or false after the last. Of a growing file, it may be asked for again. Throws InputError, naming
-  // the file and what is wrong with it.
+  // Reads the next frame; returns false after the last one. For a growing file it may be called again then. Throws
+  // InputError, naming the file and its fault.
   virtual bool read(TrajectoryFrame& frame) = 0;
 
-  // Likewise, but passes over it: its disks are not looked at, nor what may be wrong with them.
+  // The same without the frame's disks, which are not read or checked.
   virtual bool skip() {
     TrajectoryFrame passed;
     return read(passed);
   }
 
-  // Where a growing file has been moved to.
+  // Says where a growing file has been moved to.
   virtual void follow([[maybe_unused]] const std::string& path) {}
 };
 
-// Throws InputError where there is nothing of this name, or the system does not say: it may be too long, or go round in
-// links.
+// Throws InputError if there is no file of this name, or if the system cannot tell: the name may be too long, or its
+// links may form a loop.
 void check_present(const std::string& name);
 
-// The trajectory of a run's folder, trajectory.xyz or trajectory.h5; empty if there is none.
+// The trajectory in a run's folder, trajectory.xyz or trajectory.h5; empty if there is none.
 std::filesystem::path trajectory_in(const std::filesystem::path& folder);
 
-// By what the file begins with: HDF5 or text. growing: a run is, or was, writing it, and what it began is no frame yet.
-// Throws InputError if it cannot be read.
+// The format follows from the file's first bytes: HDF5 or text. growing: a run is, or was, writing it, and an
+// incomplete frame at the end does not count. Throws InputError if the file cannot be read.
 std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path, bool growing = false);
 
 }  // namespace carom

@@ -1,4 +1,4 @@
-// Reading extended XYZ back.
+// Reading extended XYZ.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ bool XyzReader::next_line() {
   ++line_number_;
   const bool read = static_cast<bool>(std::getline(file_, line_));
   if (line_number_ == 1 && line_.starts_with(byte_order_mark)) line_.erase(0, byte_order_mark.size());
-  // A line without its end may lack digits, too.
+  // An incomplete line may lack digits, too.
   return read && !(growing_ && file_.eof());
 }
 
@@ -74,7 +74,7 @@ std::string_view value_of(std::string_view line, std::string_view key) {
     take(line.find_first_not_of(blanks));
     if (line.empty()) return {};
     const std::string_view name = take(line.find_first_of(" \t\r="));
-    if (take(line.starts_with('=') ? 1 : 0).empty()) continue;  // a word by itself
+    if (take(line.starts_with('=') ? 1 : 0).empty()) continue;  // a word without a value
     const bool quoted = !take(line.starts_with('"') ? 1 : 0).empty();
     const std::string_view value = take(quoted ? line.find('"') : line.find_first_of(blanks));
     if (name == key) return value;
@@ -84,7 +84,7 @@ std::string_view value_of(std::string_view line, std::string_view key) {
 
 constexpr std::size_t most_columns = 1000;  // beyond any file that makes sense
 
-// How many columns a property has; absent where the word is no such number.
+// The number of columns of a property; absent if the word is not such a number.
 std::optional<std::size_t> width_of(std::string_view word) {
   std::size_t width = 0;
   const auto result = std::from_chars(word.data(), word.data() + word.size(), width);
@@ -94,7 +94,7 @@ std::optional<std::size_t> width_of(std::string_view word) {
 
 }  // namespace
 
-// What the reader takes from a frame; all other properties are skipped.
+// The properties that the reader uses; all others are skipped.
 struct XyzReader::Property {
   std::string_view name;
   Columns Layout::*columns;
@@ -116,7 +116,7 @@ void XyzReader::refuse_properties(std::string_view what) const {
   fail(fmt::format("expected Properties={}, or more columns; {}", xyz_properties, what));
 }
 
-// name:type:number of columns, and so on.
+// Reads name:type:number of columns, and so on.
 void XyzReader::read_layout(std::string_view properties) {
   Layout layout;
   std::string_view rest = properties;
@@ -149,7 +149,7 @@ void XyzReader::read_layout(std::string_view properties) {
   properties_ = properties;
 }
 
-// A box of another shape, or with its corner elsewhere, would show the disks in other places than they have in it.
+// In a box of another shape, or with its corner elsewhere, disks would appear at other places than they have.
 Domain XyzReader::read_box() const {
   const std::string_view edges = value_of(line_, "Lattice");
   const auto lattice = words(edges);
@@ -225,7 +225,7 @@ void XyzReader::read_disk(XyzFrame& frame) const {
   frame.image_y.push_back(whole_number<std::int32_t>(columns[at.image.first + 1], "number of rounds"));
 }
 
-// Other programs may have written them in another order.
+// Other programs may have written the disks in another order.
 void XyzReader::sort_by_id(XyzFrame& frame) const {
   Disks& d = frame.disks;
   if (std::adjacent_find(d.id.begin(), d.id.end(), std::greater_equal<>()) == d.id.end()) return;
@@ -256,21 +256,21 @@ bool XyzReader::skip() {
   return whole_or_not([&] { return skip_whole(); });
 }
 
-// Where pass() comes to no end of the frame, the reader stands at its beginning again.
+// If pass() does not reach the frame's end, the reader returns to its beginning.
 template <class Pass>
 bool XyzReader::whole_or_not(Pass&& pass) {
   if (!growing_) return pass();
   const std::streampos begin = file_.tellg();
   const std::size_t line = line_number_;
   if (pass()) return true;
-  // The rest of it may come.
+  // The rest of the frame may still come.
   file_.clear();
   file_.seekg(begin);
   line_number_ = line;
   return false;
 }
 
-// The line that a frame begins with; false at the end of the file.
+// Reads the line with which a frame begins; returns false at the end of the file.
 bool XyzReader::read_count(std::size_t& count) {
   if (!next_line()) return false;
   // Editors and other programs leave blank lines at a file's end.

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* disks_in_file = "/particles/disks/";
 
-// The row of one frame out of a dataset [frame][place] or [frame][place][components].
+// The row of one frame in a dataset [frame][place] or [frame][place][components].
 std::string row_of(const XdmfPlan& plan, const std::string& data, std::size_t frame, int components,
                    const std::string& type) {
   const std::string tail = components > 1 ? fmt::format(" {}", components) : "";
