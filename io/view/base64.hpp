@@ -1,4 +1,4 @@
-// Bytes as text that any file, and any page, can hold.
+// Bytes as text that any file or page can contain.
 #pragma once
 
 #include <cstddef>

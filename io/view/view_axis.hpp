@@ -6,8 +6,8 @@
 
 namespace carom {
 
-// The axis [0, length] in steps of quantum(). Between periodic sides there are 2^bits steps, and numbers wrap as the
-// disks do, by arithmetic modulo 2^bits; otherwise the last number stands for `length` itself.
+// The axis [0, length] in steps of quantum(). Between periodic sides there are 2^bits steps, and numbers wrap like
+// coordinates, by arithmetic modulo 2^bits; otherwise the last number stands for `length` itself.
 struct ViewAxis {
   double length = 1.0;  // length, > 0
   bool periodic = false;
@@ -16,8 +16,8 @@ struct ViewAxis {
   std::uint32_t mask() const { return (std::uint32_t{1} << bits) - 1U; }
   double quantum() const { return length / (static_cast<double>(mask()) + (periodic ? 1.0 : 0.0)); }
 
-  // The number nearest to x. A centre outside the box is taken into it: across a periodic side to its image, else to
-  // the edge. What is no number becomes 0.
+  // The number nearest to x. For a centre outside the box it is that of its image across a periodic side, or else of
+  // the edge. A value that is not a number becomes 0.
   std::uint32_t encode(double x) const {
     const double step = x * (1.0 / quantum()) + 0.5;
     if (step >= 0.0 && step < static_cast<double>(mask()) + 1.0) {
@@ -36,8 +36,8 @@ struct ViewAxis {
   }
 };
 
-// As few bits, but 16 at least, as make a step no longer than a 64th of the smallest radius; 24 at most, which a single
-// precision number of the graphics still tells apart.
+// The fewest bits, but at least 16, with which a step is at most a 64th of the smallest radius; at most 24, the
+// precision of the graphics' single precision numbers.
 inline ViewAxis view_axis(double length, bool periodic, double smallest_radius) {
   ViewAxis axis{length, periodic, 16};
   while (axis.bits < 24 && 64.0 * axis.quantum() > smallest_radius) ++axis.bits;

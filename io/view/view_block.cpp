@@ -26,7 +26,7 @@ void put_word(std::string& to, std::uint32_t value) {
   for (unsigned shift = 0; shift < 32; shift += 8) to += static_cast<char>(value >> shift);
 }
 
-// Ascending places as runs of neighbours.
+// Writes ascending places as runs of neighbours.
 void put_runs(std::string& to, const Places& places) {
   std::vector<std::array<std::uint32_t, 2>> runs;  // gap to the end of the run before, length
   std::uint32_t end = 0;
@@ -42,7 +42,7 @@ void put_runs(std::string& to, const Places& places) {
   }
 }
 
-// What a has and b has not, both ascending.
+// The places of a that are not in b; both ascending.
 Places difference(const Places& a, const Places& b) {
   Places only;
   if (a != b) std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(only));
@@ -53,7 +53,7 @@ unsigned bytes_of(const ViewAxis& axis) {
   return (axis.bits + 7) / 8;
 }
 
-// The sign goes to the lowest bit, so that small numbers of either sign have high bytes of 0.
+// The sign is stored in the lowest bit, so that the high bytes of small numbers of either sign are 0.
 std::uint32_t folded(std::uint32_t residual, const ViewAxis& axis) {
   const unsigned spare = 32 - axis.bits;
   const auto value = static_cast<std::int32_t>(residual << spare) >> spare;
@@ -64,7 +64,7 @@ std::uint32_t unfolded(std::uint32_t folded_value) {
   return (folded_value >> 1U) ^ (0U - (folded_value & 1U));
 }
 
-// One axis of a disk in the last two frames: last[0] is the later one.
+// The last two coordinates of a disk along one axis; `last` is the later one.
 struct Track {
   std::uint32_t last = 0, before = 0;
   std::uint32_t expected(unsigned order) const { return order == 2 ? 2 * last - before : last; }
@@ -87,7 +87,7 @@ std::vector<Changes> changes_of(const std::vector<ViewFrame>& frames) {
 
 using Residuals = std::vector<std::uint32_t>;
 
-// How an axis is coded in a block.
+// The coding of an axis in a block.
 struct AxisCode {
   std::size_t number;  // 0 of x, 1 of y
   ViewAxis axis;
@@ -104,7 +104,7 @@ struct AxisCode {
 // The residuals of frame k, whose two predecessors have the same disks.
 void find_plain_residuals(const std::vector<ViewFrame>& frames, std::size_t k, const AxisCode& code,
                           std::uint32_t* residuals) {
-  const AxisCode own = code;  // so that what is written cannot be part of it
+  const AxisCode own = code;  // a copy that the writes below cannot change
   const std::vector<std::uint32_t>& at = frames[k].at[own.number];
   const std::uint32_t* const now = at.data();
   const std::uint32_t* const last = frames[k - 1].at[own.number].data();
@@ -113,7 +113,7 @@ void find_plain_residuals(const std::vector<ViewFrame>& frames, std::size_t k, c
   for (std::size_t i = 0; i < count; ++i) residuals[i] = own.residual(now[i], {last[i], before[i]});
 }
 
-// The tracks of the disks of frame k, which its predecessor has, too.
+// Sets the tracks of the disks of frame k, which are also those of the frame before.
 void set_tracks(const std::vector<ViewFrame>& frames, std::size_t k, std::size_t axis, std::vector<Track>& tracks) {
   const ViewFrame& frame = frames[k];
   for (std::size_t i = 0; i < frame.place.size(); ++i) {
@@ -122,7 +122,7 @@ void set_tracks(const std::vector<ViewFrame>& frames, std::size_t k, std::size_t
 }
 
 // The residuals of one axis over all frames, in the order of the block. tracks: scratch, one for each place; they are
-// not kept while the disks stay the same, but set anew when that ends.
+// not updated while the disks stay the same, but set anew when that ends.
 void find_residuals(const std::vector<ViewFrame>& frames, const std::vector<Changes>& changes, const AxisCode& code,
                     std::vector<Track>& tracks, Residuals& residuals) {
   std::size_t next = 0;
@@ -161,7 +161,7 @@ void put_residuals(std::string& bytes, const std::array<Residuals, 2>& residuals
   }
 }
 
-// One more than the last place of any frame; those of a frame ascend.
+// The largest place of all frames, plus one; the places of a frame ascend.
 std::uint32_t places_of(const std::vector<ViewFrame>& frames) {
   std::uint32_t places = 0;
   for (const ViewFrame& frame : frames) {
@@ -170,8 +170,8 @@ std::uint32_t places_of(const std::vector<ViewFrame>& frames) {
   return places;
 }
 
-// The order of differences, 1 or 2, with which residuals in x take fewer bits: the sum of their lengths, of a sample of
-// the disks.
+// The order of differences, 1 or 2, with which residuals in x take fewer bits: the sum of their lengths, for a sample
+// of the disks.
 unsigned better_order(const std::vector<ViewFrame>& frames, const std::vector<Changes>& changes, const ViewAxis& axis) {
   std::array<std::uint64_t, 2> bits{};
   for (std::size_t k = 2; k < frames.size(); ++k) {
@@ -188,7 +188,7 @@ unsigned better_order(const std::vector<ViewFrame>& frames, const std::vector<Ch
   return bits[0] < bits[1] ? 1 : 2;
 }
 
-// Reads what a block holds once inflated.
+// Reads the contents of an inflated block.
 class Reading {
  public:
   explicit Reading(std::string_view bytes) : bytes_(bytes) {}
@@ -214,7 +214,7 @@ class Reading {
     good_ = false;
     return 0;
   }
-  // Places below `places`.
+  // Reads places below `places`.
   Places runs(std::uint32_t places) {
     Places all;
     std::uint64_t end = 0;
@@ -239,7 +239,7 @@ class Reading {
   bool good_ = true;
 };
 
-// Inflates; a stream that ends early or has a fault gives what came before it, and false.
+// Inflates a stream; if it ends early or has a fault, gives what came before, and returns false.
 bool inflated(std::string_view packed, std::string& to) {
   z_stream z{};
   if (inflateInit(&z) != Z_OK) throw std::bad_alloc();
@@ -257,7 +257,7 @@ bool inflated(std::string_view packed, std::string& to) {
   return status == Z_STREAM_END;
 }
 
-// Fills in the places of all frames.
+// Reads the places of all frames.
 std::vector<Changes> read_places(Reading& reading, std::uint32_t places, std::vector<ViewFrame>& frames) {
   std::vector<Changes> changes;
   Places present;
@@ -288,7 +288,7 @@ std::array<Residuals, 2> read_residuals(Reading& reading, const ViewAxes& axes, 
   return residuals;
 }
 
-// Fills in one axis of all frames. places: of the table of all disks.
+// Computes one axis of all frames. places: number of entries in the table of all disks.
 void follow_residuals(const Residuals& residuals, const std::vector<Changes>& changes, const AxisCode& code,
                       std::uint32_t places, std::vector<ViewFrame>& frames) {
   std::vector<Track> tracks(places);
@@ -306,7 +306,7 @@ void follow_residuals(const Residuals& residuals, const std::vector<Changes>& ch
 
 }  // namespace
 
-// Runs of one byte and Huffman codes: what lies in residuals is noise otherwise, in which a search for longer matches
+// Only runs of one byte and Huffman codes: the rest of the residuals is noise, in which a search for longer matches
 // finds nothing at many times the cost.
 std::string deflated(std::string_view bytes) {
   z_stream z{};

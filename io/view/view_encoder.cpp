@@ -13,13 +13,15 @@ namespace carom {
 
 namespace {
 
-// A block ends with so many frames, or disks of all its frames, but it has the least number of frames: few enough for a
-// page to unpack while it plays, and so many that the first one, which has no other to start from, costs little.
+// A block ends with this number of frames, or of disks of all its frames, but has the least number of frames: so few
+// that a page can unpack it while it plays, and so many that the first frame, which has no other to predict it, costs
+// little.
 constexpr std::size_t most_frames = 64;
 constexpr std::size_t least_frames = 8;
 constexpr std::size_t most_disks = std::size_t{1} << 21U;
 
-// How many boxes further up along the axis the nearest image is, -1, 0 or 1; it is taken in place of the step.
+// Replaces the step by that to the nearest image; returns how many boxes further along the axis that image is, -1, 0 or
+// 1.
 int take_nearest(const ViewAxis& axis, double& step) {
   const double steps = static_cast<double>(axis.mask()) + 1.0;
   if (!axis.periodic || std::abs(step) <= 0.5 * steps) return 0;
@@ -28,7 +30,7 @@ int take_nearest(const ViewAxis& axis, double& step) {
   return turns;
 }
 
-// How far a disk went, across sides where that is nearer; length. offset: of the images above, where it has gone to.
+// The displacement of a disk, across sides if that is shorter; length. offset: of the images above, at the later time.
 Vec2 step_between(const ViewAxes& axes, std::array<std::uint32_t, 2> from, std::array<std::uint32_t, 2> to,
                   double offset) {
   double dx = static_cast<double>(to[0]) - static_cast<double>(from[0]);
@@ -38,7 +40,7 @@ Vec2 step_between(const ViewAxes& axes, std::array<std::uint32_t, 2> from, std::
   return {dx * axes[0].quantum(), dy * axes[1].quantum()};
 }
 
-// The storage indices of the disks whose id is a multiple.
+// The storage indices of the disks whose id is a multiple of `every`.
 std::vector<std::size_t> multiples_of(DiskId every, const std::vector<DiskId>& ids) {
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < ids.size(); ++i) {
@@ -75,7 +77,7 @@ double ViewEncoder::offset_at(double time) const {
   return shear_.acts() ? shear_.offset_at(time, axes_[0].length) : 0.0;
 }
 
-// Where ids come in ascending order, as they do but for regions that disks enter and leave, places ascend with them.
+// If ids come in ascending order, as they do except in regions that disks enter and leave, places also ascend.
 std::uint32_t ViewEncoder::place_of(const TrajectoryFrame& frame, std::size_t i) {
   const DiskId id = frame.disks.id[i];
   const auto [known, is_new] = places_.try_emplace(id, static_cast<std::uint32_t>(disks_.id.size()));
@@ -83,11 +85,11 @@ std::uint32_t ViewEncoder::place_of(const TrajectoryFrame& frame, std::size_t i)
   disks_.id.push_back(id);
   disks_.radius.push_back(frame.disks.radius_of(i));
   disks_.mass.push_back(frame.disks.mass_of(i));
-  disks_.group.push_back(frame.group.empty() ? 0 : frame.group[i]);  // other programs' frames may differ in columns
+  disks_.group.push_back(frame.group.empty() ? 0 : frame.group[i]);  // frames of other programs may differ in columns
   return known->second;
 }
 
-// To be called before the frame's time is noted.
+// Must be called before the frame's time is added.
 void ViewEncoder::look_at_speeds(const ViewFrame& frame, double time) {
   constexpr std::size_t most = 1000;
   ViewFrame sample;
@@ -115,7 +117,7 @@ double ViewEncoder::fast_speed() const {
 // The disks that are shown, in the order of the trajectory's frame. A new disk gets a place.
 ViewFrame ViewEncoder::encoded(const TrajectoryFrame& frame) {
   const Disks& disks = frame.disks;
-  const ViewAxes axes = axes_;  // nothing that is written below can be part of it
+  const ViewAxes axes = axes_;  // a copy that the writes below cannot change
   const std::vector<std::size_t> chosen = every_ > 1 ? multiples_of(every_, disks.id) : std::vector<std::size_t>{};
   const std::size_t count = every_ > 1 ? chosen.size() : disks.size();
   const ViewFrame* const last = waiting_.back().empty() ? nullptr : &waiting_.back().back();
@@ -125,7 +127,7 @@ ViewFrame ViewEncoder::encoded(const TrajectoryFrame& frame) {
   const double offset = offset_at(frame.time);
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t i = every_ > 1 ? chosen[k] : k;
-    // Mostly the same disks follow each other in the same order as in the frame before.
+    // In most cases the same disks follow each other in the same order as in the frame before.
     const bool as_before = last != nullptr && k < last->place.size() && disks_.id[last->place[k]] == disks.id[i];
     view.place[k] = as_before ? last->place[k] : place_of(frame, i);
     view.at[1][k] = axes[1].encode(disks.y[i]);
@@ -136,7 +138,7 @@ ViewFrame ViewEncoder::encoded(const TrajectoryFrame& frame) {
   return view;
 }
 
-// Appends it to the block that grows, which ends with it where it is large enough.
+// Appends the frame to the growing block, and ends the block if it is large enough.
 void ViewEncoder::add_to_block(ViewFrame&& view) {
   const std::size_t count = view.place.size();
   disk_frames_ += count;

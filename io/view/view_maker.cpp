@@ -17,9 +17,9 @@ namespace carom {
 namespace {
 
 constexpr std::size_t least_shown_frames = 100;  // before disks are left out, too
-constexpr DiskId most_thinned_disks = 100;       // one disk of so many at least
+constexpr DiskId most_thinned_disks = 100;       // at least one disk of this number stays
 
-// What all frames hold.
+// What all frames have in common.
 struct TrajectoryExtent {
   std::size_t frames = 0;
   double smallest_radius = std::numeric_limits<double>::infinity();
@@ -37,7 +37,7 @@ TrajectoryExtent extent_of(const OpenTrajectory& open, const std::string& name) 
   return extent;
 }
 
-// One frame of `stride` and one disk of `every`.
+// Shows one frame of `stride` and one disk of `every`.
 struct Thinning {
   std::size_t stride = 1;
   DiskId every = 1;
@@ -51,8 +51,8 @@ std::size_t text_bytes(std::size_t bytes) {
   return (bytes + 2) / 3 * 4;
 }
 
-// By what factor frames are too long whose first blocks are. Only these tell it: how many more are packed by then
-// depends on the threads, and the page must not.
+// The factor by which frames are too long, estimated from the first blocks. Only these count: how many more are packed
+// by then depends on the threads, and the page must not.
 double factor_by_first_blocks(const ViewEncoder& encoder, std::size_t shown, std::size_t most_bytes) {
   std::size_t bytes = 0;
   std::size_t frames = 0;
@@ -65,7 +65,7 @@ double factor_by_first_blocks(const ViewEncoder& encoder, std::size_t shown, std
   return static_cast<double>(text_bytes(bytes)) / part / static_cast<double>(most_bytes);
 }
 
-// Packs the frames, and stops where they are too long; returns by what factor, 1 or less if they are not.
+// Packs the frames, and stops if they are too long; returns the factor by which they are, at most 1 if they are not.
 double pack_frames(const OpenTrajectory& open, const Thinning& thin, std::size_t frames, std::size_t most_bytes,
                    ViewEncoder& encoder) {
   const auto reader = open();
@@ -79,7 +79,7 @@ double pack_frames(const OpenTrajectory& open, const Thinning& thin, std::size_t
   return static_cast<double>(text_bytes(encoder.packed_bytes())) / static_cast<double>(most_bytes);
 }
 
-// Thinner, for a page that is `factor` times too long: frames first. Nothing where no more can be left out.
+// A stronger thinning for a page that is `factor` times too long: frames first. Nothing if no more can be left out.
 std::optional<Thinning> thinner(const Thinning& thin, double factor, std::size_t frames) {
   const std::size_t most_stride = std::max<std::size_t>(1, frames / least_shown_frames);
   if (thin.stride < most_stride) {
@@ -120,8 +120,8 @@ ViewMade make_view(const OpenTrajectory& open, const std::string& name, ViewStor
   if (!(story.box.width > 0.0)) story.box = extent.box;
   const ViewAxes axes{view_axis(story.box.width, story.box.periodic_x(), extent.smallest_radius),
                       view_axis(story.box.height, story.box.periodic_y(), extent.smallest_radius)};
-  std::size_t rest = 0;  // bytes of the page beside the frames, once known
-  Thinning least;        // that was tried
+  std::size_t rest = 0;  // bytes of the page without the frames, once known
+  Thinning least;        // the last one tried
   for (std::optional<Thinning> thin = Thinning{}; thin;) {
     least = *thin;
     ViewEncoder encoder(axes, thin->every, work.threads, work.run, story.box.shear);

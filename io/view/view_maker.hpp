@@ -1,4 +1,4 @@
-// A trajectory of any length, made into a page of limited size.
+// Makes a page of limited size from a trajectory of any length.
 #pragma once
 
 #include <cstddef>
@@ -13,25 +13,25 @@
 
 namespace carom {
 
-// Opens the trajectory at its first frame, each time it is called.
+// Opens the trajectory at its first frame; may be called several times.
 using OpenTrajectory = std::function<std::unique_ptr<TrajectoryReader>()>;
 
 struct ViewWork {
   std::size_t most_bytes = 64'000'000;  // of the page
-  std::size_t threads = 1;              // blocks to be packed at the same time
+  std::size_t threads = 1;              // number of blocks to be packed at the same time
   BlockRunner run = run_in_order;
 };
 
 struct ViewMade {
   std::string page;
-  std::vector<std::string> left_out;  // sentences, as the page has them
+  std::vector<std::string> left_out;  // sentences, as they are on the page
   std::size_t frames = 0, disks = 0, disk_frames = 0;
   std::size_t packed_bytes = 0;  // of the frames, before they became text
 };
 
-// Reads the trajectory twice, and again for each time that it must leave out more: every so many frames at first, down
-// to a hundred, and then disks as well. Throws InputError where the trajectory is damaged or has no frame, and where
-// not even a hundredth of its disks fits; name is the trajectory's, for the message.
+// Reads the trajectory twice, and once more each time that it must leave out more: first frames, down to about a
+// hundred, and then disks as well. Throws InputError if the trajectory is damaged or has no frame, and if not even a
+// hundredth of its disks fits; name: of the trajectory, for the message.
 ViewMade make_view(const OpenTrajectory& open, const std::string& name, ViewStory story, const ViewWork& work);
 
 }  // namespace carom

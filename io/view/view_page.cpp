@@ -17,7 +17,7 @@ namespace carom {
 
 namespace {
 
-// A JSON string that may stand in a script element, which "<" could end.
+// A JSON string that may be in a script element, which "<" could end.
 std::string json_string(std::string_view text) {
   std::string json = "\"";
   for (const char c : text) {
@@ -57,7 +57,7 @@ std::string json_list(const Items& items, Write write) {
   return json + ']';
 }
 
-// JSON has no word for what is no number.
+// JSON has no notation for values that are not numbers.
 std::string json_number(double value, const char* form = "{}") {
   return std::isfinite(value) ? fmt::format(fmt::runtime(form), value) : "null";
 }
@@ -77,7 +77,7 @@ void put_numbers(std::string& to, const std::vector<double>& values) {
   }
 }
 
-// The one value that all have, as JSON, or null.
+// The common value of all, as JSON, or null if they differ.
 std::string common_value(const std::vector<double>& values) {
   const auto differs = [&](double value) { return value != values.front(); };
   if (values.empty() || std::any_of(values.begin(), values.end(), differs)) return "null";
@@ -93,7 +93,7 @@ bool several_groups(const ViewDisks& disks) {
   return std::any_of(disks.group.begin(), disks.group.end(), differs);
 }
 
-// Times of frames, then of all disks the ids, radii and masses (where they differ) and groups: viewer/decode.js.
+// The times of frames, then the ids, radii and masses (if they differ) and groups of all disks: viewer/decode.js.
 std::string table_of(const ViewEncoder& encoder) {
   const ViewDisks& disks = encoder.disks();
   std::string table;
@@ -121,7 +121,7 @@ std::string json_of_box(const Domain& box) {
                      json_list(all_sides, [&](Side side) { return box.is_thermal(side) ? "true" : "false"; }));
 }
 
-// How far each side that moves stands from the edge of the box in each frame; null for those that do not.
+// The distance of each moving side from the edge of the box in each frame; null for sides at rest.
 std::string json_of_insets(const Domain& box, std::span<const double> times) {
   return json_list(box.motions, [&](const SideMotion& motion) {
     const auto inset = [&](double t) { return json_number(motion.at(t).inset, "{:.6g}"); };
@@ -129,7 +129,7 @@ std::string json_of_insets(const Domain& box, std::span<const double> times) {
   });
 }
 
-// How far each [[walls]] table that moves has moved in each frame; null for those that do not.
+// The displacement of each moving [[walls]] table in each frame; null for tables at rest.
 std::string json_of_shifts(const std::vector<WallMotion>& motions, std::span<const double> times) {
   return json_list(motions, [&](const WallMotion& motion) {
     const auto shift = [&](double t) {
@@ -177,7 +177,7 @@ std::string json_of_curve(const AnalysisCurve& curve) {
                      numbers(curve.y), curve.in_time);
 }
 
-// What the page reads first: everything but the frames and the table, with the length and checksum of each.
+// The part that the page reads first: everything except the frames and the table, with the length and checksum of each.
 std::string head_of(const ViewStory& story, const ViewEncoder& encoder, std::string_view table,
                     const std::vector<std::string>& left_out) {
   const ViewDisks& disks = encoder.disks();
@@ -203,7 +203,7 @@ std::string head_of(const ViewStory& story, const ViewEncoder& encoder, std::str
                             json_list(story.curves, json_of_curve));
 }
 
-// Writes the page up to the marker, which it leaves out, and returns the rest behind it.
+// Writes the page up to the marker, which is left out, and returns the rest behind it.
 std::string_view put_until(std::string& to, std::string_view page, std::string_view marker) {
   const std::size_t at = page.find(marker);
   if (at == std::string_view::npos) throw RunError(fmt::format("the page of the viewer lacks {}", marker));
@@ -211,7 +211,7 @@ std::string_view put_until(std::string& to, std::string_view page, std::string_v
   return page.substr(at + marker.size());
 }
 
-// A value of each disk that is new, as JSON.
+// The values of the new disks, as JSON.
 template <class Values>
 std::string json_of_new(const Values& values, std::size_t known) {
   const auto rest = std::span(values).subspan(std::min(known, values.size()));
@@ -222,7 +222,7 @@ std::string block_element(const std::string& id, std::string_view text) {
   return fmt::format("<script type=\"text/plain\" id=\"{}\">{}</script>\n", id, text);
 }
 
-// The page with all but its blocks; the rest of it, which comes behind them, is left in `rest`.
+// The page up to its blocks; the part behind them is stored in `rest`.
 std::string begin_page(const ViewStory& story, const ViewEncoder& encoder, const std::vector<std::string>& left_out,
                        bool live, std::string_view& rest) {
   const std::string table = deflated(table_of(encoder));

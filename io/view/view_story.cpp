@@ -16,7 +16,7 @@ namespace carom {
 
 namespace {
 
-// The next line, and the rest behind it.
+// Takes the next line off the text.
 std::string_view take_line(std::string_view& text) {
   const std::size_t end = text.find('\n');
   std::string_view line = text.substr(0, end);

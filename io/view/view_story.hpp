@@ -1,4 +1,4 @@
-// What a view page tells of a run beside its disks.
+// What a view page shows of a run besides its disks.
 #pragma once
 
 #include <optional>
@@ -20,14 +20,14 @@ struct ViewSeries {
   std::size_t rows = 0;                      // in the file; columns may have fewer
 };
 
-// Rows evenly chosen, so that there are at most so many values, but two rows at least. Columns without any number are
-// left out, and so is a last line without its end, as of a run that was killed. Throws InputError where the text is no
-// table; name is the file's, for the message.
+// Evenly spaced rows, with at most this number of values in all, but at least two rows. Columns without any number are
+// left out, and so is an incomplete last line, as of a run that was killed. Throws InputError if the text is not a
+// table; name: of the file, for the message.
 ViewSeries read_view_series(std::string_view csv, std::size_t most_values, const std::string& name);
 
 struct ViewSource {
   std::optional<Side> side;
-  Vec2 low, high;  // of the region, where there is no side
+  Vec2 low, high;  // of the region, if there is no side
 };
 
 struct ViewStory {
@@ -36,13 +36,13 @@ struct ViewStory {
   std::vector<std::string> groups;  // by number; empty: no name
   std::vector<ViewSource> sources;
   std::vector<Obstacle> obstacles;
-  std::vector<WallMotion> wall_motions;  // by number of a [[walls]] table; empty where no inner wall moves
+  std::vector<WallMotion> wall_motions;  // by number of a [[walls]] table; empty if no inner wall moves
   ColourBy colour = ColourBy::speed;
   ViewSeries series;
   std::vector<AnalysisCurve> curves;
 };
 
-// What the scene says; the series comes from elsewhere.
+// The story as far as the scene gives it; the series comes from elsewhere.
 ViewStory view_story(const Scene& scene);
 
 }  // namespace carom
