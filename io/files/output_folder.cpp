@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Everything that a run may write. summary.json goes last: it is the sign that the rest is there.
+// All files that a run may write. summary.json is the last one to be moved: it is the sign that the rest is there.
 constexpr std::array result_names{"scene.toml",
                                   "trajectory.xyz",
                                   "trajectory.h5",
@@ -61,12 +61,13 @@ bool is_checkpoint(std::string_view name) {
   return name == checkpoint_name || name == previous_checkpoint_name;
 }
 
-// What carom view and carom render make of a run in its folder as well, also while it goes on.
+// Files that carom view and carom render also make of a run in its folder, even while it goes on.
 bool is_picture(std::string_view name) {
   return name == "movie.mp4" || name == "frames" || name == "view.html";
 }
 
-// An empty folder in the unfinished one: pictures beside that are of an earlier run, which this one replaces.
+// An empty folder in the unfinished one: its presence means that the pictures beside carom-unfinished are of an earlier
+// run, which this one replaces.
 constexpr const char* old_pictures_name = "replaces-pictures";
 
 bool holds_pictures(const fs::path& folder) {
@@ -80,14 +81,14 @@ fs::path unfinished_of(const fs::path& folder) {
   return folder / unfinished_name;
 }
 
-// folder/ and folder are the same, and "" is the current one.
+// folder/ and folder give the same path, and "" gives the current folder.
 fs::path normal(const fs::path& folder) {
   const fs::path tidy = (folder.empty() ? fs::path(".") : folder).lexically_normal();
   return tidy.has_filename() ? tidy : tidy.parent_path();
 }
 
-// This folder and those above it that are not there, innermost first. A link is there, whatever it leads to: it is its
-// owner's, and is not taken away again.
+// This folder and those above it that do not exist, innermost first. A link counts as existing, whatever it leads to:
+// it belongs to its owner, and is not removed again.
 std::vector<fs::path> missing_folders(const fs::path& folder) {
   std::error_code error;
   std::vector<fs::path> missing;
@@ -98,7 +99,7 @@ std::vector<fs::path> missing_folders(const fs::path& folder) {
   return missing;
 }
 
-// A link that leads nowhere, such as to a disk that is not mounted.
+// Throws for a link that leads nowhere, such as to a disk that is not mounted.
 void check_links(const fs::path& name, const fs::path& folder) {
   std::error_code error;
   for (fs::path p = folder; !p.empty() && p != p.parent_path(); p = p.parent_path()) {
@@ -110,8 +111,9 @@ void check_links(const fs::path& name, const fs::path& folder) {
   }
 }
 
-// Makes a folder, with what is missing above it. A run that finds out at this moment whether it may write there
-// (check_writable) takes away what it made: what this one was about to be made in, or has just found to be there.
+// Makes a folder, and missing folders above it. A run that checks at the same moment whether it may write there
+// (check_writable) removes what it made: a folder that this one has just found to exist, or in which it was about to
+// make another; so this tries several times.
 void make_folders(const fs::path& folder, std::error_code& error) {
   constexpr int attempts = 100;
   for (int k = 0; k < attempts; ++k) {
@@ -120,7 +122,7 @@ void make_folders(const fs::path& folder, std::error_code& error) {
   }
 }
 
-// What an earlier run has left. Precondition: the folder is locked, so that no other run has just made it.
+// Removes what an earlier run has left. Precondition: the folder is locked, so no other run has just made it.
 void remove_all_but_lock(const fs::path& folder, std::error_code& error) {
   std::vector<fs::path> left;
   for (const auto& entry : fs::directory_iterator(folder, error)) left.push_back(entry.path());
@@ -129,7 +131,7 @@ void remove_all_but_lock(const fs::path& folder, std::error_code& error) {
   }
 }
 
-// Why no folder can be made here, found out by making one that goes away again; nothing where there is but no room.
+// The reason why no folder can be made here, found by making one and removing it; none if only the disk is full.
 std::error_code why_not_writable(const fs::path& folder) {
   std::error_code error;
   const fs::path probe = folder / fmt::format("carom-probe-{}", getpid());
@@ -139,13 +141,13 @@ std::error_code why_not_writable(const fs::path& folder) {
   return why == std::errc::no_space_on_device ? std::error_code{} : why;
 }
 
-// Makes sure that a folder could be made here, with what is missing above it, which goes away again.
+// Checks that a folder could be made here. Missing folders above it are made and removed again.
 void check_writable(const fs::path& name, const fs::path& folder) {
   check_links(name, folder);
   std::error_code error;
   const std::vector<fs::path> made = missing_folders(folder);
   const std::error_code why = why_not_writable(folder);
-  for (const fs::path& p : made) fs::remove(p, error);  // takes empty ones only
+  for (const fs::path& p : made) fs::remove(p, error);  // removes empty folders only
   if (!why) return;
   throw InputError(fmt::format("{}: cannot be {}: {}; expected a folder for the results (-o)", name.string(),
                                made.empty() ? "written to" : "made", why.message()));
@@ -167,7 +169,7 @@ void check_place_of_result(const fs::path& name, const char* result, const fs::p
     throw InputError(fmt::format("{}: the run's {} would replace the scene file itself; choose another folder with -o",
                                  name.string(), result));
   }
-  // No file takes the place of a folder: at the end of a run is too late to find that out. A link is replaced itself.
+  // A file does not replace a folder; the end of a run would be too late to find that out. A link is replaced itself.
   if (std::string_view(result) != "frames" && fs::is_directory(fs::symlink_status(place, error))) {
     throw InputError(fmt::format("{}: is a folder, where the run's {} would go; choose another folder with -o",
                                  (name / result).string(), result));
@@ -180,7 +182,7 @@ void check_place_of_result(const fs::path& name, const char* result, const fs::p
   }
 }
 
-// Throws InputError where another run is writing there, or has left what it wrote and that is not to be replaced.
+// Throws InputError if another run is writing there, or has left its files and these must not be replaced.
 void check_unfinished(const fs::path& name, bool force) {
   const fs::path unfinished = unfinished_of(normal(name));
   std::error_code error;
@@ -231,7 +233,7 @@ void check_output_folder(const fs::path& name, const fs::path& input, bool force
     throw InputError(fmt::format("{}: is the root of all folders; expected one of the run's own, such as -o out/{}",
                                  name.string(), input.stem().string()));
   }
-  // Looked at once: another run that finds out whether it may write there takes away again what it made.
+  // The status is read only once: another run that checks whether it may write there removes again what it made.
   const fs::file_status status = fs::status(folder, error);
   if (fs::exists(status) && !fs::is_directory(status)) {
     throw InputError(fmt::format("{}: is a file; expected a folder for the results (-o)", name.string()));
@@ -263,7 +265,7 @@ OutputFolder::OutputFolder(const UsualFolder& folder, const fs::path& input) {
   }
 }
 
-// Nothing is held or left behind where it throws.
+// If this throws, nothing stays locked or left behind.
 void OutputFolder::begin(const fs::path& folder, const fs::path& input, bool force) {
   folder_ = normal(folder);
   unfinished_ = unfinished_of(folder_);
@@ -288,8 +290,8 @@ void OutputFolder::begin(const fs::path& folder, const fs::path& input, bool for
       fmt::format("{}: cannot be made: {}; expected a folder for the results (-o)", name(), why.message()));
 }
 
-// Another run may have begun and ended there since the folder was looked at: its results stay, and so does what it has
-// left to go on with. Precondition: the lock is held.
+// Another run may have begun and ended there since the folder was checked: its results stay, and so does what it has
+// left for a continuation. Precondition: the lock is held.
 void OutputFolder::check_still_free(const fs::path& name, const fs::path& input) {
   if (!holds_lock_alone(unfinished_)) {
     lock_.give_up();
@@ -309,7 +311,7 @@ OutputFolder::OutputFolder(const fs::path& folder)
     : folder_(normal(folder)), unfinished_(unfinished_of(folder_)), done_(true) {
   std::error_code error;
   make_folders(unfinished_, error);
-  // Both may be there and take no files, which the first one would find out when others have been moved.
+  // Both folders may exist and not be writable, which would otherwise show only after some files have been moved.
   for (const fs::path& place : {folder_, unfinished_}) {
     if (!error) error = why_not_writable(place);
   }
@@ -342,14 +344,14 @@ void OutputFolder::take_back(bool finished, const std::vector<std::string>& file
 void OutputFolder::remove_unfinished() noexcept {
   std::error_code ignored;
   fs::remove_all(unfinished_, ignored);
-  // Folders that we made are removed too, if nothing else is in them: remove() takes empty ones only.
+  // Folders that this object made are removed too, if they contain nothing else: remove() removes only empty ones.
   for (auto p = made_.rbegin(); p != made_.rend(); ++p) fs::remove(*p, ignored);
 }
 
 void OutputFolder::finish(bool keep_checkpoints) {
   std::error_code error;
   const bool pictures_are_old = fs::exists(unfinished_ / old_pictures_name, error);
-  // The old summary goes first: from here on the folder does not look complete until it is.
+  // The old summary is removed first: from here on the folder does not look complete until it is.
   for (auto name = result_names.rbegin(); name != result_names.rend(); ++name) {
     if (is_picture(*name) && !pictures_are_old && !fs::exists(unfinished_ / *name, error)) continue;
     if (std::string_view(*name) == "frames") {

@@ -7,7 +7,7 @@ namespace carom {
 
 namespace {
 
-// A path in another script than Latin is left as it is, too: no shell means anything by its bytes.
+// A path in a script other than Latin needs no quotes either: its bytes have no meaning to any shell.
 bool is_plain(char c) {
   constexpr std::string_view marks = "_-./,:+@%=";
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||

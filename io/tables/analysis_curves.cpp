@@ -15,7 +15,7 @@ namespace {
 constexpr const char* sample_times = "/samples/time";
 
 struct KnownCurve {
-  const char *name, *group, *x, *y;  // x: in the group; none: against the times of samples
+  const char *name, *group, *x, *y;  // x: in the group; if none, the times of samples
 };
 
 constexpr std::array known_curves{KnownCurve{"g(r)", "/pair_correlation", "r", "g"},
@@ -35,7 +35,7 @@ constexpr std::array known_curves{KnownCurve{"g(r)", "/pair_correlation", "r", "
                                   KnownCurve{"pressure of samples", "/pressure", nullptr, "value"},
                                   KnownCurve{"collision rate", "/collision_rate", nullptr, "value"}};
 
-// The numbers of a dataset of one dimension; none where there is no such dataset.
+// The numbers of a dataset of one dimension; none if there is no such dataset.
 std::vector<double> numbers_of(const Hdf5Handle& file, const std::string& path, const std::string& name) {
   const std::size_t slash = path.rfind('/');
   if (H5Lexists(file.get(), path.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return {};

@@ -17,7 +17,7 @@ namespace carom {
 
 namespace {
 
-// Entries a chunk; a file of a short run stays small.
+// Entries of a chunk; with few of them the file of a short run stays small.
 constexpr hsize_t chunk = 256;
 
 // Datasets of one group, each with its unit.
@@ -34,7 +34,7 @@ class Group {
     put(name, double_kind(), rows_of(values.size(), rows), values.data());
     output_.attribute(name_ + "/" + name, "unit", unit);
   }
-  // Whole numbers, which may be kept as double.
+  // Whole numbers, which may be stored as double.
   template <class Number>
   void counts(const char* name, const std::vector<Number>& values) const {
     const std::vector<std::int64_t> signed_values(values.begin(), values.end());

@@ -24,7 +24,7 @@ std::vector<GroupColumn> group_column_kinds() {
 
 namespace {
 
-// A mean place along a periodic axis would depend on where the box is cut.
+// A mean position along a periodic axis would depend on where the box is cut.
 bool has_column(const Domain& box, const std::string& kind) {
   return kind == "x" ? !box.periodic_x() : kind == "y" ? !box.periodic_y() : true;
 }
