@@ -9,7 +9,7 @@
 namespace carom {
 
 // In storage order, which any step may change; valid as long as the columns are (Simulation::state()). radius and mass
-// are empty where all disks have common_radius and common_mass.
+// are empty if all disks have common_radius and common_mass.
 struct DiskMaps {
   using Column = Eigen::Map<const Eigen::ArrayXd>;
   using Ids = Eigen::Map<const Eigen::Array<DiskId, Eigen::Dynamic, 1>>;
@@ -27,7 +27,7 @@ struct DiskMaps {
   Column x, y;    // length
   Column vx, vy;  // length / time
   Column radius, mass;
-  Column spin;  // angular velocity, counter-clockwise; 1 / time; empty where disks are smooth
+  Column spin;  // angular velocity, counter-clockwise; 1 / time; empty if disks are smooth
   Ids id;
 
  private:

@@ -13,7 +13,7 @@ namespace carom {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double longest_ray = 1e6;  // boxes
+constexpr double longest_ray = 1e6;  // in lengths of the box
 
 void check_finite(const char* what, std::initializer_list<double> numbers) {
   for (const double number : numbers) {
@@ -28,7 +28,7 @@ void check_inside(const char* what, const Domain& box, Vec2 place) {
              fmt::format("expected a place within {} x {}", box.width, box.height));
 }
 
-// Any coordinate, brought into [0, period) by whole periods.
+// Shifts any coordinate into [0, period) by whole periods.
 double into_period(double c, double period) {
   const double inside = c - period * std::floor(c / period);
   return inside >= 0.0 && inside < period ? inside : 0.0;
@@ -40,7 +40,7 @@ Vec2 into_box(Vec2 place, const Domain& box) {
   return place;
 }
 
-// Does [low, high], perhaps shifted by a period, hold c?
+// Does [low, high] contain c, possibly shifted by a period?
 bool holds(double low, double high, double c, double period, bool periodic) {
   if (c >= low && c <= high) return true;
   if (!periodic) return false;
@@ -49,9 +49,9 @@ bool holds(double low, double high, double c, double period, bool periodic) {
   return shifted <= high;
 }
 
-// Calls see(id, centre, radius) for every disk whose centre is within half_width and half_height of a
-// place in the box, nearest images included, and for every fixed one that reaches into there; perhaps for others too,
-// and for some twice. The centre is that in the box.
+// Calls see(id, centre, radius) for every disk whose centre is within half_width and half_height of a place in the box,
+// including nearest images, and for every fixed disk that reaches into that rectangle; possibly for others too, and for
+// some twice. The centre is the one in the box.
 template <class See>
 void see_near(const QueryScene& scene, Vec2 place, double half_width, double half_height, See&& see) {
   const Disks& d = scene.disks;
@@ -59,7 +59,7 @@ void see_near(const QueryScene& scene, Vec2 place, double half_width, double hal
     see(d.id[i], Vec2{d.x[i], d.y[i]}, d.radius_of(i));
   });
   if (scene.fixed == nullptr) return;
-  // More than the box in both directions has nothing new.
+  // A rectangle larger than the box in both directions contains nothing else.
   const double across = std::min(half_width, scene.box.width), up = std::min(half_height, scene.box.height);
   scene.fixed->visit({place.x - across, place.y - up}, {place.x + across, place.y + up}, [&](std::uint32_t k, Vec2) {
     const Obstacle& o = (*scene.fixed)[k];
@@ -67,8 +67,8 @@ void see_near(const QueryScene& scene, Vec2 place, double half_width, double hal
   });
 }
 
-// How far along a unit direction from the origin a line enters a disk around `centre`; 0 if it begins inside; infinite
-// where it does not meet it.
+// The distance along a unit direction from the origin at which a line enters a disk around `centre`; 0 if it begins
+// inside; infinite if it misses the disk.
 double entry(Vec2 centre, double radius, Vec2 direction) {
   const double along = centre.x * direction.x + centre.y * direction.y;
   const double c = centre.x * centre.x + centre.y * centre.y - radius * radius;
@@ -79,10 +79,10 @@ double entry(Vec2 centre, double radius, Vec2 direction) {
   return c / (along + std::sqrt(half_chord2));
 }
 
-// How far along a unit direction from the origin a line crosses the segment from `to` to `to + along`; infinite where
-// it does not. The two pieces at a corner overlap by a rounding, so that no line slips between them.
+// The distance along a unit direction from the origin at which a line crosses the segment from `to` to `to + along`;
+// infinite if it does not. The two segments at a corner overlap by a rounding, so no line passes between them.
 double crossing(Vec2 to, Vec2 along, Vec2 direction) {
-  constexpr double rounding = 1e-12;  // of the segment
+  constexpr double rounding = 1e-12;  // relative to the segment
   const double sine = direction.x * along.y - direction.y * along.x;
   if (sine == 0.0) return infinite;
   const double t = (to.x * along.y - to.y * along.x) / sine;
@@ -90,7 +90,7 @@ double crossing(Vec2 to, Vec2 along, Vec2 direction) {
   return t >= 0.0 && share >= -rounding && share <= 1.0 + rounding ? t : infinite;
 }
 
-// The length of a ray inside the sides that are not periodic.
+// The length of a ray up to the sides that are not periodic.
 double clipped(const Domain& box, Vec2 from, Vec2 direction, double length) {
   const auto clip = [&](double at, double speed, double size, bool periodic) {
     if (periodic || speed == 0.0) return;
@@ -101,7 +101,7 @@ double clipped(const Domain& box, Vec2 from, Vec2 direction, double length) {
   return std::max(length, 0.0);
 }
 
-// A ray is looked at piece by piece, so that the disks near a piece are few and nearest images are the right ones.
+// A ray is followed piece by piece, so that few disks are near a piece, and nearest images are the right ones.
 double piece_length(const QueryScene& scene) {
   const double box_size = std::min(scene.box.width, scene.box.height);
   if (scene.count() == 0) return box_size;
@@ -109,7 +109,8 @@ double piece_length(const QueryScene& scene) {
   return std::min(0.25 * box_size, std::max(4.0 * spacing, 1e-3 * box_size));
 }
 
-// The first disk, the smaller id of two, that a piece of this length meets; its distance is from the piece's start.
+// The first disk that a piece of this length meets, of two the one with the smaller id; its distance is from the
+// piece's start.
 std::optional<RayHit> first_in_piece(const QueryScene& scene, Vec2 start, Vec2 direction, double length,
                                      double largest) {
   const double half = 0.5 * length;
@@ -151,7 +152,7 @@ std::vector<DiskId> disks_in(const QueryScene& scene, Vec2 low, Vec2 high) {
                "expected the lower corner first");
   }
   const Domain& box = scene.box;
-  // Without periodic sides nothing lies outside the box.
+  // Without periodic sides nothing is outside the box.
   const auto cut = [](double& from, double& to, double size, bool periodic) {
     if (periodic) return;
     from = std::clamp(from, 0.0, size);
@@ -184,7 +185,8 @@ std::optional<NearDisk> nearest_disk(const QueryScene& scene, Vec2 place) {
     if (best && (distance > best->distance || (distance == best->distance && id >= best->id))) return;
     best = NearDisk{id, distance};
   };
-  // What lies within the reach is all seen; so the search is over once the best is. A larger reach sees the whole box.
+  // All disks within the reach are found, so the search ends once the nearest one is within it. A larger reach covers
+  // the whole box.
   double reach = std::sqrt(box.width * box.height / static_cast<double>(scene.count()));
   for (;; reach *= 2.0) {
     see_near(scene, into_box(place, box), reach, reach, look);

@@ -26,7 +26,8 @@ void check_size(const char* what, Dimension dimension, double value) {
   if (!(value > 0.0)) fail_input(what, fmt::format("is {}", value), "expected a number above 0");
 }
 
-// One coordinate of a disk that is to lie inside the box, or touch its side in decimals, as those of a scene may.
+// Checks one coordinate of a disk that must be inside the box; it may touch a side in decimals, as the disks of a scene
+// may.
 void check_coordinate(const char* what, double c, double radius, double size, bool periodic) {
   const double slack = place_slack(radius, size);
   if (!periodic && !(radius <= size / 2.0 + slack)) {
@@ -41,7 +42,7 @@ void check_coordinate(const char* what, double c, double radius, double size, bo
   }
 }
 
-// box: with its sides where they are.
+// box: with its sides at their present places.
 bool is_beyond_moving_side(const Domain& box, const Disk& disk) {
   return std::any_of(all_sides.begin(), all_sides.end(), [&](Side side) {
     return box.moves(side) && reach_beyond_wall(side, disk.x, disk.y, disk.radius, box) > place_slack(box, disk.radius);
@@ -71,7 +72,7 @@ void check_newcomer(const Scene& scene, const State& state, const Disk& disk) {
   check_size("mass", Dimension::mass, disk.mass);
   check_velocity({disk.vx, disk.vy});
   if (state.disks.spins()) check_magnitude("spin", Dimension::frequency, disk.spin);
-  // As of a scene's disks: in a sheared box images move besides, and larger disks could meet one more of them.
+  // As for a scene's disks: in a sheared box images also move, and larger disks could touch one image more.
   const double share = box.shear.acts() ? 0.125 : 0.25;
   const auto check_axis = [&](const char* what, double size, bool periodic) {
     if (!periodic || disk.radius <= share * size) return;

@@ -33,7 +33,7 @@ Scene scene_in(const Checkpoint& checkpoint, const std::string& name) {
   return scene;
 }
 
-// Of the fixed disks, or of the inner walls, where those are now.
+// Cells of the fixed disks, or of the inner walls at their present places.
 std::unique_ptr<const ObstacleCells> cells_of(const Scene& scene, const State& state, bool segments) {
   std::vector<Obstacle> chosen;
   const std::vector<WallMotion> motions = motions_of(scene);
@@ -79,7 +79,7 @@ void Simulation::check_not_lost() const {
   if (lost_) throw RunError("memory has run out within a step or a change, and the state is lost: load a saved one");
 }
 
-// What the method itself throws leaves the engine as it was; all else may come in the middle of its work.
+// An exception of the method itself leaves the engine as it was; any other may come in the middle of its work.
 template <class Work>
 auto Simulation::or_lose(Work&& work) {
   try {
@@ -101,7 +101,7 @@ Engine& Simulation::engine() {
   return *engine_;
 }
 
-// What comes before the first step belongs to the start; the energy that a later change brings is put into the run.
+// Changes before the first step belong to the start; the energy of a later change counts as energy put into the run.
 void Simulation::change(Edit edit) {
   const FloatEnvironment environment;
   check_not_lost();
@@ -119,7 +119,8 @@ void Simulation::change(Edit edit) {
   or_lose([&] { apply(edit, *edited_); });
 }
 
-// Before the engine is made anew. A program that goes back again and again, and never asks, keeps so many at most.
+// Called before the engine is made anew. At most this number is kept for a program that goes back again and again and
+// never calls take_warnings.
 void Simulation::keep_warnings() {
   constexpr std::size_t most_kept = 1000;
   for (std::string& text : engine_->take_warnings()) {
@@ -128,8 +129,8 @@ void Simulation::keep_warnings() {
   }
 }
 
-// A step that fails leaves no contacts. What was changed since the step before is taken up here, as a program may look
-// at the disks, change them or take up another state each time that run_until asks it.
+// A step that fails leaves no contacts. Changes since the step before are taken into the engine here, since run_until
+// may let a program read the disks, change them or load another state before each step.
 void Simulation::make_step() {
   check_not_lost();
   Engine& steps = engine();
@@ -175,7 +176,7 @@ double Simulation::disks_at(double t, Disks& out) const {
   }
   Disks stored = state().disks;
   const double at = edited_ ? time() : engine_->disks_at(t, stored);
-  gather_disks(stored, by_id(stored), out);  // disks that a sink took in the last step are there again
+  gather_disks(stored, by_id(stored), out);  // also disks that a sink took in the last step
   return at;
 }
 
@@ -200,7 +201,8 @@ std::uint64_t Simulation::hash() const {
 Summary Simulation::summary() const {
   const FloatEnvironment environment;
   check_not_lost();
-  // After a change by an engine for this alone: the next step's would move the disks that a caller looks at.
+  // After a change, a separate engine is used: making the next step's engine would move the disks that a caller is
+  // reading.
   const std::unique_ptr<Engine> looks = edited_ ? make_engine(choice_, scene_, *edited_) : nullptr;
   Summary s = summarize(start(), looks ? *looks : *engine_, scene_, choice_);
   s.warnings = validity_warnings_so_far(scene_, state());
