@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Nothing is changed before all of this is known to be there.
+// Checked before anything is changed: do all files exist?
 void check_files(const CheckpointPlace& place, const OutputMark& mark) {
   if (place.finished && fs::exists(place.folder / unfinished_name) && fs::exists(place.folder / "summary.json")) {
     fail_input(place.folder.string(), "holds a finished run, and another that stopped before its first checkpoint",
@@ -29,20 +29,20 @@ void check_files(const CheckpointPlace& place, const OutputMark& mark) {
     check_at_least(present_path(place.folder, file.name).string(), file.bytes);
 }
 
-// Steps (pairwise), or Brownian intervals, that the state has begun; the clock must still say the same of them.
+// The steps (pairwise), or Brownian intervals, that the state has begun; the clock must still give the same number.
 Count begun_steps(const Scene& scene, const State& state) {
   if (scene.run.method == Method::pairwise) return state.counters.steps;
   return scene.physics.diffusion > 0.0 ? state.intervals : 0;
 }
 
-// The scene as the run has it, with what options and --set made of the file that it came from.
+// The file of the run's scene with the changes by options and --set; otherwise the file that it came from.
 std::string scene_file_of(const CheckpointPlace& place, const Scene& scene) {
   const fs::path kept = present_path(place.folder, "scene.toml");
   return fs::exists(kept) ? kept.string() : scene.file;
 }
 
-// May the run end at another time than the one given at first? It must not have to go back, and the step that was cut
-// short to end at the old time must not have begun.
+// May the run end at another time than the first one given? It must not have to go back, and a step that was cut short
+// to end at the old time must not have begun.
 void check_end(const CheckpointPlace& place, const Scene& before, const Scene& now, const State& state) {
   const double t_end = now.run.t_end;
   if (t_end == before.run.t_end) return;
@@ -63,7 +63,7 @@ void check_end(const CheckpointPlace& place, const Scene& before, const Scene& n
                   shell_word(scene_file_of(place, now)), t_end));
 }
 
-// Was a plot lost at the end of the run, or taken away since? Going on from the end draws it.
+// Was a plot lost at the end of the run, or removed since? Continuing the run from its end draws it.
 bool lacks_plots(const Scene& scene, const fs::path& folder) {
   const auto lacks = [&](std::string_view name) { return !fs::exists(folder / fmt::format("{}.svg", name)); };
   for (std::size_t k = 0; k < quantity_names.size(); ++k) {

@@ -1,4 +1,4 @@
-// Whether a run can go on from a checkpoint: all that is asked before anything is changed.
+// Whether a run can be continued from a checkpoint: all checks that come before anything is changed.
 #pragma once
 
 #include <string>
@@ -7,10 +7,9 @@
 
 namespace carom {
 
-// Throws InputError with one line where the run cannot go on: a state that does not belong to its scene, an end that
-// lies before the checkpoint or would have made an earlier step another one, files that are not there, a run that is
-// done. before: the scene as the checkpoint has it; now: as it shall go on; name: of the checkpoint, as the user wrote
-// it.
+// Throws InputError with one line if the run cannot be continued: a state that does not belong to its scene, an end
+// that is before the checkpoint or would have changed an earlier step, missing files, or a run that is done. before:
+// the scene in the checkpoint; now: the scene for the continuation; name: of the checkpoint, as the user wrote it.
 void check_resumable(const ResumeFrom& from, const Scene& before, const Scene& now, const std::string& name);
 
 }  // namespace carom

@@ -26,7 +26,7 @@ void copy_there(const fs::path& from, const fs::path& to) {
   }
 }
 
-// Brings the files that the run goes on with into the folder's unfinished part. Returns the folder.
+// Moves or copies the files with which the run continues to the folder's unfinished part. Returns the folder.
 const OutputFolder& with_files(OutputFolder& folder, const fs::path& path, const ResumeFrom& from) {
   const CheckpointPlace& place = from.place;
   std::vector<std::string> files;
@@ -35,7 +35,7 @@ const OutputFolder& with_files(OutputFolder& folder, const fs::path& path, const
     for (const std::string& file : files) copy_there(present_path(place.folder, file), folder.path(file));
     return folder;
   }
-  // What comes after the checkpoint that was named is given up, a damaged newer one with it.
+  // Everything after the named checkpoint is given up, including a damaged newer one.
   if (place.file.filename() == previous_checkpoint_name) {
     fs::rename(place.file, place.file.parent_path() / checkpoint_name);
   }

@@ -25,13 +25,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What the machine did not let happen; how to go on where there is a checkpoint.
+// Throws for what the machine prevented, with the command that continues the run if there is a checkpoint.
 [[noreturn]] void fail_resumable(const std::string& what, const CheckpointKeeper& keeper) {
   const std::string command = keeper.resume_command();
   throw RunError(command.empty() ? what : fmt::format("{}; the last checkpoint is whole: {}", what, command));
 }
 
-// The record of a run that begins, or of one that goes on.
+// The record of a run that begins, or of one that is continued.
 RunRecord record_of(const Scene& scene, const ResumeFrom* from, const RunSettings& settings, const RunStart& start) {
   RunRecord record;
   if (from != nullptr) {
@@ -52,12 +52,12 @@ std::unique_ptr<Engine> engine_of(const Scene& scene, ResumeFrom* from, RunSetti
     return make_engine(settings.engine, scene, std::move(from->checkpoint.state), std::move(from->disks));
   }
   if (from != nullptr) return make_engine(settings.engine, scene, std::move(from->checkpoint.state));
-  // Its line of progress goes with it.
+  // Its line of progress ends with it.
   const auto watch = std::exchange(settings.listener.growth, {});
   return make_engine_at_start(settings.engine, scene, watch);
 }
 
-// The folder was named before the start was computed.
+// The folder was named before the initial state was made.
 void tell_if_elsewhere(const RunSettings& settings, const std::string& name) {
   if (name == settings.folder->string()) return;
   tell(settings.listener.note,
@@ -68,7 +68,7 @@ void tell_if_elsewhere(const RunSettings& settings, const std::string& name) {
 struct StartedEngine {
   std::unique_ptr<Engine> engine;
   RunStart at;
-  std::vector<std::string> warnings;  // of that start
+  std::vector<std::string> warnings;  // of the initial state
 };
 StartedEngine start_engine(const Scene& scene, ResumeFrom* from, RunSettings& settings) {
   StartedEngine start;
@@ -103,7 +103,7 @@ RunOutcome carry_out(const Scene& scene, ResumeFrom* from, RunSettings settings)
     if (files != nullptr && settings.usual) tell_if_elsewhere(settings, files->folder.name());
     const bool there = from != nullptr && settings.folder && !goes_elsewhere(*from, *settings.folder);
     if (files != nullptr) keeper.write_to(&files->folder, &files->outputs, there);
-    // So that a run that is killed in its first minutes is not lost, nor the options with which it was resumed.
+    // So neither a run that is killed in its first minutes is lost, nor the options with which it was resumed.
     const bool wanted = from != nullptr || scene.output.checkpoint > 0.0;
     if (files != nullptr && (new_plan || (!there && wanted))) keeper.write(*engine, 0.0);
     SceneRun scene_run(scene, settings, *engine, files, keeper, from != nullptr, at.particles);

@@ -25,7 +25,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Plots, a movie and a page that could not be made, on one line, and how to make them. lost_view: why there is no page.
+// One line about the plots, movie and page that could not be made, and how to make them. lost_view: why there is no
+// page.
 std::string lost_pictures(const Scene& scene, const RunFiles& files, const std::string& lost_view, bool resumable) {
   std::string text;
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
@@ -88,15 +89,15 @@ bool SceneRun::pulse(double seconds) {
   return go_on;
 }
 
-// Between two frames of a window there is no state to stop at: its start is gone, and frames that its end lacks could
-// not be made from there. Where there are millions, that takes a while.
+// Between two frames of a window there is no state for a stop: the window's start is gone, and the frames missing at
+// its end could not be made from there. With millions of disks making them takes a while.
 void SceneRun::say_what_a_stop_waits_for() {
   constexpr double patience_s = 1.0;
   if (wait_told_ || !keeper_.wants_stop()) return;
   if (!stop_seen_) stop_seen_ = WallClock::now();
   if (seconds_since(*stop_seen_) < patience_s) return;
   wait_told_ = true;
-  // Where the wall time has run out, a first signal asks for the same stop again.
+  // If the wall time has run out, a first signal requests the same stop again.
   const char* const how = stop_wished() ? "another Ctrl-C, or SIGINT, ends" : "Ctrl-C, or SIGINT, twice ends";
   tell(listener_.note, fmt::format("stops when the frames of this window are made, up to t = {:g}; {} it at once",
                                    engine_.progress().time, how));
@@ -108,7 +109,7 @@ void SceneRun::take_output_warnings() {
   if (!warning.empty()) tell(listener_.warning, warning);
 }
 
-// follow: what is to be done before a sample, with its time.
+// follow: called before each sample, with its time.
 void SceneRun::watch_samples(RunObserver& observer, const std::function<void(double)>& follow) {
   RunningAnalysis* const analysis = this->analysis();
   if (analysis == nullptr) return;
@@ -152,16 +153,16 @@ void SceneRun::go() {
     step_s_ = run_to_end(engine_, scene_, observer());
     if (settings_.strict && keeper_.stopped_by().empty()) fail_if_any(energy_gained());
   } catch (const PhysicsError& error) {
-    // The state that is kept has them marked as told; with --strict the error has the warning.
+    // In the state that is kept they are marked as reported; with --strict the error contains the warning.
     take_news(settings_.strict);
     if (files_ == nullptr) throw;
     keep_stopped(error);
   }
 }
 
-// A run that a PhysicsError stopped keeps what it has written, for inspection, in a place where it cannot be taken for
-// a result; and as a checkpoint the last good state, or that in which disks are crushed, as they are after the step
-// only. It fails again where it goes on, but may be the run's end.
+// A run that a PhysicsError stopped keeps its files for inspection, in a place where they cannot be taken for a result;
+// and as a checkpoint the last good state, or the one in which disks are crushed, which is so only after the step. It
+// fails again if it is continued, but may be the end of the run.
 void SceneRun::keep_stopped(const PhysicsError& error) {
   std::string last_state;
   try {
@@ -208,7 +209,8 @@ RunOutcome SceneRun::stopped() {
   return outcome;
 }
 
-// The last checkpoint of a run that is done: asked for, or needed to draw lost plots from. Is there one?
+// Keeps the last checkpoint of a run that is done if that is wanted, or needed to draw lost plots. Returns whether
+// there is one.
 bool SceneRun::keep_last_checkpoint(const OutputMark& mark) {
   const bool wanted = scene_.output.checkpoint > 0.0;
   if (!wanted && files_->outputs.lost_plots().empty()) return false;
@@ -221,7 +223,7 @@ bool SceneRun::keep_last_checkpoint(const OutputMark& mark) {
   return true;
 }
 
-// The page of the run, where it is asked for. Returns why it could not be made; empty if it was.
+// Makes the page of the run, if it is wanted. Returns why it could not be made; empty if it was.
 std::string SceneRun::make_page() {
   if (!scene_.output.view) return "";
   const fs::path page = files_->folder.path("view.html");

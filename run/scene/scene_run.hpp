@@ -1,4 +1,4 @@
-// A run on its way from its first step to its results.
+// A run from its first step to its results.
 #pragma once
 
 #include <functional>
@@ -18,7 +18,7 @@
 
 namespace carom {
 
-// Calls one of a listener's functions, if it is there.
+// Calls one of a listener's functions, unless it is empty.
 template <class Function, class... Arguments>
 void tell(const Function& function, const Arguments&... arguments) {
   if (function) function(arguments...);
@@ -26,21 +26,21 @@ void tell(const Function& function, const Arguments&... arguments) {
 
 void tell_all(const RunListener& listener, const std::vector<std::string>& warnings);
 
-// What the run warns of when it has come to this state: of its start, and the worst of what was seen.
+// All warnings of the run up to this state: of its start, and of the worst that has occurred.
 std::vector<std::string> warnings_so_far(const RunRecord& record, const Scene& scene, const State& state);
 
 // One run, with its engine, its files (if any) and its checkpoints.
 class SceneRun {
  public:
-  // goes_on: from a checkpoint. disks: how many there are when it begins. The others must outlive it; files: null where
-  // none are asked for.
+  // goes_on: the run is continued from a checkpoint. disks: their number when it begins. The other arguments must
+  // outlive it. files: null if there are none.
   SceneRun(const Scene& scene, const RunSettings& settings, Engine& engine, RunFiles* files, CheckpointKeeper& keeper,
            bool goes_on, Count disks);
 
-  // Steps to the end with all outputs, progress and checkpoints, or until the keeper says stop.
+  // Steps to the end with all outputs, progress and checkpoints, or until the keeper requests a stop.
   void go();
 
-  // What the run came to, when it has stopped early; and at its end, with all files complete.
+  // The results of a run that has stopped early, and of one at its end, with all files complete.
   RunOutcome stopped();
   RunOutcome finished();
 
@@ -66,9 +66,9 @@ class SceneRun {
   CheckpointKeeper& keeper_;
   std::unique_ptr<RunningAnalysis> measured_;  // for the summary of a run without files
   bool goes_on_;
-  Count disks_;                    // when it begins
+  Count disks_;                    // at the beginning
   double step_s_ = 0.0;            // seconds in steps
-  std::vector<std::string> told_;  // the warnings that the engine has raised
+  std::vector<std::string> told_;  // warnings that the engine has given
   std::optional<WallClock::time_point> stop_seen_;
   bool wait_told_ = false;
 };
