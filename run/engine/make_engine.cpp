@@ -21,7 +21,7 @@ namespace carom {
 
 namespace {
 
-// What read_rank_start reads.
+// The text that read_rank_start reads.
 std::string rank_start(const Scene& scene, const State& state) {
   RunRecord record;
   record.scene_text = resolved_toml(scene);

@@ -1,4 +1,4 @@
-// Which engine runs a scene.
+// The choice and making of the engine that runs a scene.
 #pragma once
 
 #include <functional>
@@ -20,51 +20,51 @@ class RankLead;
 
 struct EngineChoice {
   std::string name;  // "reference" or "parallel"
-  int threads = 1;   // that it will use, on each rank
+  int threads = 1;   // number of threads, on each rank
   int ranks = 1;
   RankLead* lead = nullptr;  // of several ranks; outlives what is made
 };
 
-// More are a slip, with which a machine would not answer for minutes.
+// A larger number is a mistake, with which a machine would not answer for minutes.
 inline constexpr int most_threads = 4096;
 
-// What --engine and --threads ask for; empty and absent mean the default: parallel, on all cores. The reference has one
-// thread whatever is asked for. Throws InputError for an engine that does not exist.
+// The engine for --engine and --threads; empty and absent mean the default: parallel, on all cores. The reference
+// always has one thread. Throws InputError for an engine that does not exist.
 EngineChoice choose_engine(const std::string& engine, std::optional<int> threads, RankLead* lead = nullptr);
 
-// How many ranks it leads.
+// The number of ranks that it leads.
 int ranks_of(const RankLead& lead);
 
-// Threads of each of so many ranks, where nothing is said: all cores of this machine among them.
+// The default number of threads of each of this number of ranks: they share all cores of this machine.
 int threads_of_rank(int ranks);
 
-// The disks of a scene; either engine's way gives the same bits. watch is that of GrowthTools (growth.hpp), told while
-// disks are placed at random, too, and may be empty.
+// The initial state of a scene; both engines give the same bits. watch: as in GrowthTools (growth.hpp), called also
+// while disks are placed at random; may be empty.
 State make_initial_state(const EngineChoice& choice, const Scene& scene,
                          const std::function<void(const GrowthProgress&)>& watch = {});
 
 std::unique_ptr<Engine> make_engine(const EngineChoice& choice, const Scene& scene, State initial);
 
-// The same of disks that come some at a time, for several ranks: none has all of them. initial: has none.
+// As make_engine, for disks that come in pieces, with several ranks: none has all of them. initial: without disks.
 // Precondition: there is a lead.
 std::unique_ptr<Engine> make_engine(const EngineChoice& choice, const Scene& scene, State initial,
                                     std::unique_ptr<DiskSource> disks);
 
-// The same of make_initial_state; of several ranks each makes its part of it, where that can be.
+// As make_engine with make_initial_state; with several ranks each makes its part of the state, if that is possible.
 std::unique_ptr<Engine> make_engine_at_start(const EngineChoice& choice, const Scene& scene,
                                              const std::function<void(const GrowthProgress&)>& watch = {});
 
-// What the ranks above 0 make a part of: the scene and state with which rank 0 made an engine.
+// The scene and state with which rank 0 made an engine, from which the ranks above 0 make their part.
 std::pair<Scene, State> read_rank_start(const std::string& start);
 
-// The threads that it chooses, for other work between its steps.
+// The engine's threads, for other work between its steps.
 BlockRunner make_block_runner(const EngineChoice& choice);
 
 // Throws the InputError of a scene whose disks do not fit into memory.
 [[noreturn]] void fail_memory(const Scene& scene);
 
-// make(), which makes the scene's disks or their engine. A limit on this process may be far below what the machine has,
-// and the check of the scene does not see it.
+// Calls make(), which makes the scene's disks or their engine, and reports a lack of memory. A limit on this process
+// may be far below the memory of the machine, and the check of the scene does not know it.
 template <class Make>
 auto within_memory(const Scene& scene, Make&& make) {
   try {

@@ -17,20 +17,20 @@ struct ViewSettings {
   WarningSink warn = [](std::string_view) {};
 };
 
-// What the page tells beside the disks, from the files of the run that lie beside the trajectory.
+// What the page shows besides the disks, from the files of the run beside the trajectory.
 ViewStory story_of(const Recording& recording, const ViewSettings& settings);
 
-// The plots of series.csv alone; none where it cannot be read.
+// Only the plots of series.csv; none if it cannot be read.
 ViewSeries series_of(const Recording& recording, const ViewSettings& settings);
 
-// The page of a recording, with title, sides and sources as the scene says, and the plots of series.csv where it lies
-// beside the trajectory. Throws as make_view() does.
+// The page of a recording, with title, sides and sources from the scene, and the plots of series.csv if that is beside
+// the trajectory. Throws as make_view() does.
 ViewMade view_of(const Recording& recording, const ViewSettings& settings);
 
-// Throws InputError where a page is not to be written to this file: by its ending, or as something is in the way.
+// Throws InputError if a page may not be written to this file, because of its extension or of an existing file.
 void check_page_file(const std::filesystem::path& file, bool force);
 
-// A page, as view_of() makes it, written to a file, which it replaces. Throws RunError where it cannot be written.
+// Writes the page that view_of() makes to a file, which it replaces. Throws RunError if it cannot be written.
 ViewMade write_view(const std::filesystem::path& file, const Recording& recording, const ViewSettings& settings);
 
 }  // namespace carom

@@ -1,4 +1,4 @@
-// JSON objects as tables: one row a key, from which the object is written and docs/scene.md is made.
+// JSON objects as tables: one row for each key, from which both the object and docs/scene.md are written.
 #pragma once
 
 #include <cmath>
@@ -12,12 +12,12 @@ namespace carom {
 
 using Json = nlohmann::ordered_json;
 
-// What docs/scene.md says of a key.
+// The text about a key in docs/scene.md.
 struct KeyText {
   std::string_view name, unit, meaning;
 };
 
-// A key of an object that describes a T; a value that is absent() is left out.
+// A key of an object that describes a T; it is left out if absent() is true.
 template <class T>
 struct JsonKey {
   std::string_view name, unit, meaning;

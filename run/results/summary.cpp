@@ -25,7 +25,7 @@ Json phase_seconds(const Summary& s) {
   return phases;
 }
 
-// What each side gave for which `gives` is true.
+// The energy that each side gave, for those sides for which `gives` is true.
 template <class Gives>
 Json side_energy_of(const Summary& s, Gives&& gives) {
   Json energy = Json::object();
@@ -55,7 +55,7 @@ Json ids_of(const WorstOverlap& worst, const std::vector<DiskId>& ids) {
   return worst.overlap.size > 0.0 ? Json(ids) : Json::array();
 }
 
-// What a rank said in a step, in the mean.
+// The mean of a rank's traffic in a step.
 double a_step_and_rank(const RankReport& report, Count all) {
   const double steps = static_cast<double>(std::max<Count>(1, report.steps));
   return static_cast<double>(all) / (steps * static_cast<double>(report.ranks.size()));
@@ -88,7 +88,7 @@ Json traffic_of(const Summary& s) {
           {"seconds", seconds}};
 }
 
-// A new key is a row here.
+// For a new key, add a row here.
 const JsonKey<Summary> summary_keys[] = {
     {"scene", "", "the scene's file", [](const Summary& s) -> Json { return s.scene; }},
     {"method", "", "`rollback`, `pairwise` or `exact`", [](const Summary& s) -> Json { return s.method; }},
@@ -197,12 +197,12 @@ const JsonKey<Summary> summary_keys[] = {
      [](const Summary& s) -> Json { return traffic_of(s); }},
 };
 
-// What was seen on the way, or what there is now if that is deeper.
+// The worst overlap so far, or the present one if that is deeper.
 WorstOverlap worst_of(const WorstOverlap& before, const Overlap& now, double time) {
   return now.size > before.overlap.size ? WorstOverlap{now, time} : before;
 }
 
-// "0.003 of two disks, 0.001 with a wall" and when that was.
+// "0.003 of two disks, 0.001 with a wall", and the times.
 std::string worst_line(const WorstOverlap& disks, const WorstOverlap& wall) {
   const auto when = [](const WorstOverlap& worst) {
     return worst.overlap.size > 0.0 ? fmt::format(" at time {:g}", worst.time) : "";
@@ -229,7 +229,7 @@ std::string traffic_line(const Summary& s) {
                      short_number(a_step_and_rank(report, all.bytes)), duration_text(seconds));
 }
 
-// "0.0734"; of a gas that cools or heats up, why there is none.
+// "0.0734"; for a gas that cools or heats up, the reason why there is none.
 std::string pressure_line(const Summary& s) {
   if (std::isnan(s.pressure)) {
     if (s.counters.steps == 0) return "not known, as no time has passed";
@@ -260,8 +260,9 @@ std::string disks_line(const Summary& s) {
   return text;
 }
 
-// Of a run that took so long, from the kinetic energy halfway between start and end; NaN where that is not its mean:
-// disks that fell from rest and rest again have moved, and a sheared gas may have cooled for most of its collisions.
+// The mean pressure of a run of this duration, from the kinetic energy halfway between start and end. NaN if that is
+// not its mean: disks that fell from rest and rest again have moved in between, and a sheared gas may have cooled for
+// most of its collisions.
 double mean_pressure(const Summary& s, double elapsed) {
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   constexpr double most_change = 0.25;  // of the larger of the two
