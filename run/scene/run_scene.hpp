@@ -55,8 +55,7 @@ struct RunOutcome {
 struct ResumeFrom {
   Checkpoint checkpoint;
   CheckpointPlace place;
-  std::unique_ptr<DiskSource> disks =
-      nullptr;  // if ranks take the disks from it; otherwise they are in the checkpoint's state
+  std::unique_ptr<DiskSource> disks = nullptr;  // if ranks take the disks from it; otherwise the state has them
 };
 
 // Runs the scene to scene.run.t_end, or until a stop is requested, and writes its files. Throws InputError (the folder
