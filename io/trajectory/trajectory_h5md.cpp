@@ -105,8 +105,7 @@ struct H5mdWriter::File {
   Count frames = 0, flushed_frames = 0;
   std::vector<H5mdElement> elements;       // positions first
   std::vector<std::size_t> shown_columns;  // of series_columns
-  std::vector<H5mdColumn>
-      columns;  // step, the observables, and last the time, which shows how many frames are complete
+  std::vector<H5mdColumn> columns;  // step, observables, and last the time, which shows how many frames are complete
   GroupMeter groups;
   std::vector<Packer> packers = std::vector<Packer>(chunks_at_once);
   double work_seen = 0.0;  // of the run, at the last frame

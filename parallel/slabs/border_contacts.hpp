@@ -49,9 +49,8 @@ class BorderContacts {
   bool take_alone(const GhostDisks& ghosts, const ContactLists& lists, const ContactEvent& e);
 
   Ranks& ranks_;
-  std::vector<std::uint8_t>
-      mark_;                       // of each disk in a contact: the borders that its cluster is at; all 0 between steps
-  std::vector<SentContact> sent_;  // by other ranks
+  std::vector<std::uint8_t> mark_;  // of each disk in a contact: its cluster's borders; all 0 between steps
+  std::vector<SentContact> sent_;   // by other ranks
   std::vector<ContactEvent> alone_;
   // Scratch.
   std::vector<SentContact> part_;
