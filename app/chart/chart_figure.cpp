@@ -28,7 +28,7 @@ constexpr const char* caption =
     "Exact is compared with itself, started one rounding away; its rates are drawn at their own noise, which is what "
     "this chart can resolve.";
 
-// Of one scene: shorter lines, as the page is narrower.
+// For one scene: shorter lines, since the page is narrower.
 constexpr const char* own_caption =
     "Bars: standard error over seeds. Open symbols: below twice that, or rounding. p: fitted order in dt (predicted).\n"
     "Exact is compared with itself, started one rounding away; its rates are drawn at their own noise.";
@@ -36,7 +36,7 @@ constexpr const char* alike_caption =
     "One run each, as the scene starts alike whatever the seed. Open symbols: no error, or rounding.\n"
     "p: fitted order in dt (predicted). Exact is compared with itself, started one rounding away.";
 
-// What is below it is as good as none; axes end here.
+// A smaller error counts as none; axes end here.
 constexpr double no_error = 1e-17;
 
 struct Range {
@@ -48,12 +48,12 @@ struct Range {
   }
 };
 
-// A little more than the range, so that no symbol lies on an axis.
+// A little more than the range, so that no symbol is on an axis.
 Range widened(const Range& range) {
   return {range.low / 1.8, range.high * 1.8};
 }
 
-// Name and order.
+// The method's name and its fitted order.
 std::string order_text(const SceneResult& result, const Curve& curve, Measure measure) {
   const std::string name(name_of(curve.method));
   const auto& fit = curve.fit(measure);
@@ -72,7 +72,7 @@ LogPoint point_of(const Point& p, Measure measure, double floor) {
     const double bound_at = chart::seen_errors * m.error;
     return bound ? LogPoint{p.cost, std::max(bound_at, floor), 0.0, true} : LogPoint{p.cost, size, m.error, false};
   }
-  // Rounding, or none at all.
+  // The error is at most rounding.
   const bool rates = measure == Measure::rate || measure == Measure::figure;
   return {p.cost, std::max({size, rates ? chart::seen_errors * m.error : size, floor}), 0.0, true};
 }
@@ -106,7 +106,7 @@ LogPanel error_panel(const SceneResult& result, std::vector<Measure> measures, c
   return panel;
 }
 
-// Panels whose costs mean the same share an axis.
+// Panels whose costs have the same meaning share an axis.
 void share_costs(const std::vector<LogPanel*>& panels) {
   Range x;
   for (const LogPanel* panel : panels) {
@@ -134,7 +134,7 @@ void share_costs(LogFigure& figure) {
   share_costs(diffusion);
 }
 
-// The axis of costs is named once a column, where nothing follows that means the same.
+// The axis of costs is named only in the lowest panel of a column whose costs have the same meaning.
 void label_lowest(LogFigure& figure) {
   for (LogSection& section : figure.sections) {
     for (std::size_t k = 0; k + figure.columns < section.panels.size(); ++k) {
@@ -143,7 +143,7 @@ void label_lowest(LogFigure& figure) {
   }
 }
 
-// Rollback's frames to advance by dt: one, if time moved as it should.
+// Rollback's frames in a time dt: one, if time advances as it should.
 LogPanel crowd_panel(const ChartResult& result) {
   LogPanel panel;
   panel.title = "rollback stalls: frames per dt";
@@ -156,7 +156,7 @@ LogPanel crowd_panel(const ChartResult& result) {
       LogCurve curve{static_cast<int>(method), "", {}, dt != 0.032, false};
       for (const chart::CrowdPoint& p : result.crowd) {
         if (p.method != method || p.dt != dt) continue;
-        // Pairwise is split where a disk moves too far, whatever the number of disks; a step is a step.
+        // Pairwise divides steps in which a disk moves too far, whatever the number of disks; each counts as one step.
         curve.points.push_back({static_cast<double>(p.disks), p.frames, 0.0, false});
         x.add(static_cast<double>(p.disks));
         y.add(p.frames);
@@ -190,7 +190,7 @@ const SceneResult& scene_of(const ChartResult& result, const std::string& name) 
                        [&](const SceneResult& s) { return s.scene.name == name; });
 }
 
-// From which step to which pairwise goes.
+// Writes the range of pairwise's steps.
 void note_steps(const SceneResult& result, LogPanel& panel) {
   for (const LogCurve& curve : panel.curves) {
     if (curve.style != static_cast<int>(Method::pairwise) || curve.points.size() < 2) continue;

@@ -1,4 +1,4 @@
-// The speed-accuracy chart as pictures: which panel shows what.
+// The speed-accuracy chart as pictures: the contents of each panel.
 #pragma once
 
 #include "app/chart/chart_result.hpp"
@@ -6,7 +6,7 @@
 
 namespace carom {
 
-// The page for a paper: cost against the error of the paths for every scene, then the other errors where they say most.
+// The page for a paper: cost against the error of the paths for every scene, and the other errors where they show most.
 LogFigure main_figure(const chart::ChartResult& result);
 
 // Every scene (a row) with every error (a column).

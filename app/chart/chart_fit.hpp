@@ -20,20 +20,20 @@ struct OrderFit {
   std::size_t points = 0;
 };
 
-// A mean counts as seen when it is this many standard errors from nothing.
+// A mean counts as seen if it is at least this many standard errors from zero.
 inline constexpr double seen_errors = 2.0;
 
-// Rounding's share of an error; below this a curve says nothing of dt.
+// The share of rounding in an error; below this a curve does not depend on dt.
 inline constexpr double rounding_floor = 1e-11;
 
-// Above this an error is no longer small and need not follow its law.
+// Above this an error is no longer small and may deviate from its law.
 inline constexpr double small_error = 0.2;
 
 // Is the point above the noise of its seeds and above rounding?
 bool is_seen(const FitPoint& p);
 
 // Least squares of log value against log dt, from the longest step with a small error down to the first point that is
-// not seen: one seen by chance further down is none. None with fewer than three points.
+// not seen; a point further down that is seen by chance is not used. None with fewer than three points.
 std::optional<OrderFit> fit_order(std::vector<FitPoint> points);
 
 }  // namespace carom::chart

@@ -1,4 +1,4 @@
-// Which runs make the chart, and running them side by side.
+// The runs of the chart, and running them side by side.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -12,14 +12,14 @@ namespace carom::chart {
 
 namespace {
 
-// From one step to the next.
+// The ratio of successive steps.
 constexpr double step_factor = 2.0;
 
 double step_of(const ChartScene& scene, int power) {
   return scene.longest_step / std::pow(step_factor, power);
 }
 
-// Short steps cost more and are seen by fewer seeds; rollback, whose errors are large, needs fewer.
+// Short steps cost more, and their errors are seen with fewer seeds; rollback, whose errors are large, needs fewer.
 std::uint64_t seeds_of(const Effort& effort, Method method, int power) {
   constexpr int free_powers = 4;
   const std::uint64_t wanted = effort.most_seeds >> std::max(0, power - free_powers);
@@ -47,14 +47,14 @@ std::vector<Setting> settings_of(const Effort& effort, const ChartScene& scene) 
   return settings;
 }
 
-// One start with everything that runs from it.
+// One start with all runs from it.
 struct Task {
   std::size_t scene = 0;
   std::uint64_t seed = 0;
-  double weight = 0.0;  // steps and events to come, for the time left
+  double weight = 0.0;  // number of steps and events, for the remaining time
 };
 
-// Roughly: disks times steps of each run, and exact's collisions at the price of ten steps.
+// An estimate: disks times steps of each run, with exact's collisions at the price of ten steps.
 double weight_of(const ChartScene& scene, std::uint64_t seed, const std::vector<Setting>& settings) {
   double weight = scene.melting * 100.0;
   for (const Setting& s : settings) {
@@ -72,7 +72,7 @@ ChartScene scaled(ChartScene scene, double scale) {
   return scene;
 }
 
-// Runs task(k) for k = 0 .. count - 1 on some threads; rethrows the first error.
+// Runs task(k) for k = 0 .. count - 1 on several threads; rethrows the first error.
 template <class Run>
 void run_all(std::size_t count, int threads, Run run) {
   std::atomic<std::size_t> next{0};
@@ -90,7 +90,7 @@ void run_all(std::size_t count, int threads, Run run) {
     }
   };
   {
-    std::vector<std::jthread> others;  // waits for them at its end, also where no further one can be started
+    std::vector<std::jthread> others;  // its destructor waits for them, also if no further one can be started
     for (int t = 1; t < threads; ++t) others.emplace_back(work);
     work();
   }
@@ -126,7 +126,7 @@ Effort for_own(Effort effort) {
   constexpr std::uint64_t most_own_seeds = 24;
   effort.most_seeds = std::min(effort.most_seeds, most_own_seeds);
   effort.crowds.clear();
-  effort.scale = 1.0;  // its times were found for it: in shorter ones nothing might collide
+  effort.scale = 1.0;  // its times were found without a scale: in shorter ones there might be no collision
   return effort;
 }
 
@@ -160,7 +160,7 @@ ChartResult measure_scenes(const std::vector<ChartScene>& wanted, const Effort& 
     watch(done / total);
   });
   for (std::size_t s = 0; s < scenes.size(); ++s) {
-    // One run that stands for all has no scatter: as if a second had come to the same.
+    // One run that represents all seeds has no scatter: it counts as two runs with the same result.
     if (scenes[s].same_start) samples[s] = {samples[s][0], samples[s][0]};
     result.scenes.push_back(summed_up(scenes[s], samples[s]));
   }
@@ -170,7 +170,7 @@ ChartResult measure_scenes(const std::vector<ChartScene>& wanted, const Effort& 
 ChartResult measure_chart(const Effort& effort, int threads, const Watch& watch) {
   ChartResult result = measure_scenes(chart_scenes(), effort, threads, watch);
   result.crowd = crowd_settings(effort);
-  // Each of these is timed alone on its thread, long after the others of its size; the least of three counts.
+  // Each of these is timed alone on its thread, long after the others of its size; the least of three times counts.
   const double unit = result.scenes[1].unit;
   run_all(result.crowd.size(), threads, [&](std::size_t k) {
     CrowdPoint& p = result.crowd[k];

@@ -21,11 +21,11 @@ namespace carom::chart {
 
 namespace {
 
-// Collisions of a disk, in the mean, until which paths are compared, and over which rates are taken.
+// The mean number of collisions of a disk up to which paths are compared, and over which rates are taken.
 constexpr double path_collisions = 2.0, rate_collisions = 25.0;
 
 // Brownian motion, as in the chart's own scene: the longest step moves a disk by this share of its radius in each
-// direction (root mean square); paths are compared after so many of these steps, rates taken over so many.
+// direction (root mean square); paths are compared after this number of these steps, rates taken over this number.
 constexpr double brownian_travel = 0.226, brownian_flight = 4.0, brownian_length = 40.0;
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& what, const std::string& expected) {
@@ -47,19 +47,19 @@ void check_kind(const Scene& scene) {
   if (!(scene.run.t_end > 0.0)) refuse(scene, "t_end is 0", "expected a run of some length");
 }
 
-// What the run by exact came to.
+// The result of the run by exact.
 struct Trial {
   double flight = 0.0, length = 0.0;
   double travel2 = 0.0;  // largest (speed / radius)^2 seen
   double collisions = 0.0;
 };
 
-// A copy of the disks, as a view of them may change them.
+// Takes a copy of the disks, since a view may change them.
 double largest_travel2_of(Disks d) {
   return with_view(d, [&](const auto& view) { return largest_travel2(view, 0, d.size()); });
 }
 
-// The time at which there will have been so many collisions, between two that are known.
+// The time of this number of collisions, interpolated between two known numbers.
 double time_of(double wanted, double t0, double c0, double t1, double c1) {
   return c1 > c0 ? t0 + (t1 - t0) * (wanted - c0) / (c1 - c0) : t1;
 }
@@ -123,7 +123,7 @@ void plan_flight(const Scene& scene, const Trial& trial, ChartScene& chart) {
                        !walls_rub(scene) && !scene.box.has_thermal_side() && !scene.box.inner_walls_move && !kicked;
   chart.keeps_energy = elastic && !falls_for_ever(scene);
   chart.keeps_momentum = !walls && !scene.physics.gravity.acts() && !kicked;
-  // Haff's law is of a gas that nothing heats, which the flow of a sheared box does.
+  // Haff's law is for a gas that nothing heats; the flow of a sheared box does.
   const bool cools = !elastic && chart.keeps_momentum && !scene.box.shear.acts();
   chart.figure = cools ? Figure::cooling : Figure::pressure;
 }

@@ -1,4 +1,4 @@
-// A scene of the user's own as one of the speed-accuracy chart.
+// A user's own scene as a scene of the speed-accuracy chart.
 #pragma once
 
 #include "app/chart/chart_scenes.hpp"
@@ -6,16 +6,17 @@
 
 namespace carom::chart {
 
-// What is measured in it and for how long: paths until a disk has collided twice in the mean, rates until 25 times or
-// to t_end, steps from the longest safe one on and the scene's own. Runs it once by exact to find these times. Throws
-// InputError, with the remedy, for a scene that cannot be charted: it needs disks that stay, that collide, and that
+// The scene with what is measured in it and for how long: paths until a disk has collided twice on average, rates until
+// 25 times or to t_end, with steps from the longest safe one down and the scene's own step. Runs the scene once by
+// exact to find these times. Throws InputError, with the remedy, for a scene that cannot be charted: its disks must
+// stay, they must collide, and exact must be able to run it that far.
 // exact can carry to there.
 ChartScene own_scene(const Scene& scene);
 
-// So many of disks_that_move at most: paths are compared by the plain references, some fifty runs of them.
+// The largest disks_that_move: paths are compared by the plain references, in some fifty runs.
 inline constexpr Count most_own_disks = 20'000;
 
-// How many disks the scene has that costs are given per: not the fixed ones, which are obstacles. Precondition: it has
+// The number of disks by which costs are divided: without fixed ones, which are obstacles. Precondition: the scene has
 // no sources.
 Count disks_that_move(const Scene& scene);
 

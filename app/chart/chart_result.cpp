@@ -11,13 +11,13 @@ namespace {
 
 constexpr std::array<Method, 3> methods{Method::rollback, Method::pairwise, Method::exact};
 
-// A single run has no scatter: its mean may be wrong by all of it.
+// A single run has no scatter: its mean may be entirely wrong.
 Mean mean_of(const std::vector<double>& values) {
   const SampleMean mean = sample_mean(values);
   return {mean.mean, mean.samples > 1 ? mean.standard_error() : std::abs(mean.mean)};
 }
 
-// All samples of one setting with those of exact that each is compared with, seed by seed.
+// All samples of one setting, and those of exact with which they are compared, seed by seed.
 struct Series {
   Method method = Method::exact;
   double dt = 0.0;
@@ -43,7 +43,7 @@ Series series_of(const std::vector<std::vector<Sample>>& samples, Method method,
   return series;
 }
 
-// The relative difference to exact, over seeds; for exact itself how well its own mean is known.
+// The relative difference from exact, over seeds; for exact itself the relative error of its own mean.
 Mean against_exact(const Series& series, Measure m) {
   std::vector<double> exact, difference;
   for (std::size_t k = 0; k < series.own.size(); ++k) {
@@ -75,7 +75,8 @@ Point point_of(const Series& series, double unit, bool same_start) {
   return p;
 }
 
-// Brownian motion's spread is wrong by the step itself, exact's too: it is compared with exact at the shortest step.
+// The spread of Brownian motion has an error by the step itself, even with exact: it is compared with exact at the
+// shortest step.
 void compare_spreads(const std::vector<std::vector<Sample>>& samples, double shortest, SceneResult& result) {
   const Series best = series_of(samples, Method::exact, shortest, true);
   const Mean reference = mean_of(column(best.own, Measure::figure));
@@ -114,7 +115,7 @@ std::optional<double> predicted_order(const ChartScene& scene, Method method, Me
     case Measure::spurious:
       return scene.figure == Figure::spread ? 0.5 : 1.0;
     default:
-      return std::nullopt;  // energy and momentum are kept to rounding, overlaps are pushed away: nothing to predict
+      return std::nullopt;  // energy and momentum are kept to rounding, overlaps are pushed away: no prediction
   }
 }
 
@@ -122,7 +123,7 @@ SceneResult summed_up(const ChartScene& scene, const std::vector<std::vector<Sam
   const bool brownian = scene.figure == Figure::spread;
   SceneResult result{scene, 1.0, 0.0, {}, {}};
   std::vector<Sample> exact;
-  std::vector<double> steps;  // of any seed, falling
+  std::vector<double> steps;  // of any seed, descending
   for (const auto& of_seed : samples) {
     for (const Sample& s : of_seed) {
       if (s.method == Method::exact) exact.push_back(s);

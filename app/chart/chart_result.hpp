@@ -1,4 +1,4 @@
-// The chart as numbers: what every run came to, summed up over seeds.
+// The numbers of the chart: the results of all runs, summed up over seeds.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@ namespace carom::chart {
 inline constexpr std::array<std::string_view, measure_count> measure_names{
     "cost", "path", "rate", "figure", "energy", "momentum", "overlap", "missed", "spurious"};
 
-// A mean over seeds with its standard error. Rate and figure are relative differences to exact's from the same starts,
-// with their sign; the others as measured. NaN where the scene does not define it.
+// A mean over seeds with its standard error. Rate and figure are relative differences from exact's with the same
+// starts, with their sign; the others are as measured. NaN if the scene does not define it.
 struct Mean {
   double value = 0.0;
   double error = 0.0;
@@ -33,33 +33,33 @@ struct Point {
 
 struct Curve {
   Method method = Method::exact;
-  std::vector<Point> points;  // dt falls
+  std::vector<Point> points;  // in order of falling dt
   std::array<std::optional<OrderFit>, measure_count> fits{};
   const std::optional<OrderFit>& fit(Measure m) const { return fits[static_cast<std::size_t>(m)]; }
 };
 
-// A step at which the method stopped in one of the runs: it has no point.
+// A step with which the method stopped in one of the runs: there is no point for it.
 struct Stop {
   Method method = Method::exact;
   double dt = 0.0;
-  std::string why;  // of the first such run
+  std::string why;  // the reason in the first such run
 };
 
 struct SceneResult {
   ChartScene scene;
-  double unit = 1.0;    // time that costs are given in: exact's mean free time, or diameter^2 / D for Brownian motion
-  double figure = 0.0;  // exact's value of the scene's figure
+  double unit = 1.0;          // unit of time in costs: exact's mean free time, or diameter^2 / D for Brownian motion
+  double figure = 0.0;        // exact's value of the scene's figure
   std::vector<Curve> curves;  // rollback, pairwise, exact
   std::vector<Stop> stops;
 };
 
-// The fluid with a number of disks.
+// A run of the fluid with this number of disks.
 struct CrowdPoint {
   std::size_t disks = 0;
   Method method = Method::exact;
   double dt = 0.0;      // 0: exact
   double cost = 0.0;    // per disk and mean free time
-  double frames = 0.0;  // steps that it took to advance by dt; 0: exact
+  double frames = 0.0;  // steps needed to advance by dt; 0: exact
 };
 
 struct ChartResult {
@@ -67,35 +67,35 @@ struct ChartResult {
   std::vector<CrowdPoint> crowd;
 };
 
-// How much is run: steps are longest_step / factor^k for the powers k listed.
+// The number of runs: steps are longest_step / factor^k for the powers k listed.
 struct Effort {
   std::string name;
   std::vector<int> powers;
-  std::uint64_t most_seeds = 0;   // of the long steps, up to power 4: each one beyond halves them
-  std::uint64_t least_seeds = 0;  // of the shortest
+  std::uint64_t most_seeds = 0;   // for the long steps, up to power 4: each further power halves the number
+  std::uint64_t least_seeds = 0;  // for the shortest
   std::vector<std::size_t> crowds;
   double scale = 1.0;  // of flights and lengths; below 1 for tests
 };
 
 Effort full_effort();
 Effort quick_effort();
-Effort tiny_effort();  // seconds; numbers of no use, for tests
-// The same for a scene of the user's own, whose size is not known beforehand: without crowds, and with fewer seeds.
+Effort tiny_effort();  // takes seconds; its numbers are of no use, except for tests
+// The effort for a user's own scene, whose size is not known in advance: without crowds, and with fewer seeds.
 Effort for_own(Effort effort);
 
-// The predicted order in dt (docs/methods.md); none where dt does not matter or nothing is said. What is wrong is a
+// The predicted order in dt (docs/methods.md); none if dt does not matter or there is no prediction. The error is a
 // share Gamma dt of all collisions, those of disks that collide twice in a step: first order. Brownian disks of speed
 // sqrt(2 D / dt) have Gamma dt of order 1/2.
 std::optional<double> predicted_order(const ChartScene& scene, Method method, Measure measure);
 
-// Called with the share of the work that is done.
+// Called with the completed share of the work.
 using Watch = std::function<void(double share)>;
 
-// These scenes, without crowds.
+// Measures these scenes, without crowds.
 ChartResult measure_scenes(const std::vector<ChartScene>& scenes, const Effort& effort, int threads,
                            const Watch& watch);
 
-// All of it, on `threads` threads, one run a thread. Reads the clock only to measure costs.
+// Measures the whole chart on `threads` threads, with one run a thread. Reads the clock only to measure costs.
 ChartResult measure_chart(const Effort& effort, int threads, const Watch& watch);
 
 // Sums up the samples of one scene: samples[seed][setting].

@@ -18,10 +18,10 @@ namespace carom::chart {
 
 namespace {
 
-// How often overlaps are measured in a run.
+// The number of times that overlaps are measured in a run.
 constexpr int looks = 20;
 
-// CPU time of this thread: others measure at the same time.
+// CPU time of this thread only, since others measure at the same time.
 double thread_seconds() {
   timespec t{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
@@ -35,8 +35,7 @@ SideMotion at_rest(double inset) {
   return motion;
 }
 
-// Disks of the scene in the equilibrium that they have as an elastic gas between sides at rest, at time 0. A shear flow
-// begins then.
+// The scene's disks at time 0, in their equilibrium as an elastic gas between sides at rest. A shear flow begins then.
 State start_state(const ChartScene& scene, std::uint64_t seed) {
   Scene melting = scene_of(scene, seed, Method::exact, 0.0, scene.melting);
   melting.physics.restitution = 1.0;
@@ -59,27 +58,27 @@ State start_state(const ChartScene& scene, std::uint64_t seed) {
   return state;
 }
 
-// What sides that move and the images of a shear have given.
+// The work done by sides that move and by the images of a shear.
 double work_on(const State& state) {
   double work = state.counters.shear_work;
   for (const double of_side : state.counters.side_energy) work += of_side;
   return work;
 }
 
-// The same start with every position moved to the next double: what rounding does.
+// The same start with every position moved to the next double, as rounding does.
 State moved_by_rounding(State state) {
   for (double& x : state.disks.x) x = std::nextafter(x, 0.0);
   for (double& y : state.disks.y) y = std::nextafter(y, 0.0);
   return state;
 }
 
-// Where a short run ended, and which disks collided.
+// The end of a short run, and the collisions in it.
 struct Flight {
   std::vector<Vec2> places;  // in order of id
   CollisionLog collisions;   // sorted
 };
 
-// Ids of fixed disks, which are obstacles, lie among those of the disks.
+// Positions in order of id; ids of fixed disks, which are obstacles, are among those of the disks.
 std::vector<Vec2> places_of(const Disks& d) {
   std::vector<Vec2> places;
   for (const std::size_t i : by_id(d)) places.push_back({d.x[i], d.y[i]});
@@ -105,7 +104,7 @@ double mean_distance(const Scene& scene, const std::vector<Vec2>& a, const std::
   return sum / static_cast<double>(a.size());
 }
 
-// Entries of a that b lacks; a pair that collides twice in one and once in the other counts once.
+// The number of entries of a that are not in b; a pair that collides twice in one and once in the other counts once.
 std::size_t lacking(const CollisionLog& a, const CollisionLog& b) {
   CollisionLog rest;
   std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(rest));
@@ -121,7 +120,7 @@ void compare_flights(const Scene& scene, const State& start, const Flight& exact
   sample[Measure::spurious] = static_cast<double>(lacking(flight.collisions, exact.collisions)) / collisions;
 }
 
-// The long run: what it costs and what its figures are.
+// The long run: its cost and its figures.
 void measure_rates(const ChartScene& scene, const Scene& s, const State& start, Sample& sample) {
   const auto engine = make_parallel_engine(s, start, {1});
   engine->forget_paths();
@@ -168,7 +167,7 @@ void measure_rates(const ChartScene& scene, const Scene& s, const State& start, 
 std::vector<Sample> measure_seed(const ChartScene& scene, std::uint64_t seed, const std::vector<Setting>& settings) {
   const State start = start_state(scene, seed);
   const bool brownian = scene.figure == Figure::spread;
-  std::map<double, Flight> exact;  // by dt; 0 where exact needs none
+  std::map<double, Flight> exact;  // by dt; 0 if exact needs none
   std::vector<Sample> samples;
   for (const Setting& setting : settings) {
     if (seed > setting.seeds) continue;

@@ -38,11 +38,11 @@ std::string mixed_disks(std::size_t count) {
       count);
 }
 
-// At v = 4 sqrt(kT / m), which some disk always has, pairwise splits steps above 0.0625 diameters.
+// At v = 4 sqrt(kT / m), which some disk always has, pairwise divides steps above 0.0625 diameters.
 constexpr double longest_step = 0.064;
 
-// What lies in a gas and can catch disks: polylines with acute wedges, of 30 degrees and less, inner corners, and free
-// ends that disks graze.
+// Walls in a gas that can catch disks: polylines with acute wedges of 30 degrees and less, inner corners, and free ends
+// that disks graze.
 std::string corners() {
   std::string text = "[box]\nwidth = 36.0\nheight = 36.0\nleft = \"periodic\"\nright = \"periodic\"\n";
   for (const double x : {2.0, 14.0, 26.0}) {
@@ -56,7 +56,8 @@ std::string corners() {
   return text;
 }
 
-// A channel three diameters high whose floor comes up by one: disks between walls that close until two of them, one
+// A channel three diameters high whose floor rises by one: disks between walls that close until there is just room for
+// two of them, one above the other.
 // above the other, just have room.
 const char* const closing_walls =
     "[box]\nwidth = 200.0\nheight = 3.0\nleft = \"periodic\"\nright = \"periodic\"\ntop = \"wall\"\n"
@@ -105,7 +106,7 @@ Scene scene_of(const ChartScene& scene, std::uint64_t seed, Method method, doubl
     own.run.t_end = t_end;
     return own;
   }
-  // A step for parsing's sake; the melting of a Brownian scene has none.
+  // A step is needed for parsing; the melting of a Brownian scene has none.
   Scene s = parse_scene(scene.text + "[run]\nmethod = \"exact\"\ndt = 1.0\nt_end = 0.0\n", scene.name, "",
                         {{"seed", fmt::format("{}", seed)}});
   s.run = RunPlan{};

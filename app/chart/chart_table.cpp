@@ -29,7 +29,7 @@ void add_point(std::string& text, const SceneResult& scene, const Curve& curve, 
   }
 }
 
-// Where log y crosses log error between two points, as x.
+// The cost x at which log y reaches log error, on the line between two points.
 double crossing(const Point& a, double ya, const Point& b, double yb, double error) {
   const double share = (std::log(ya) - std::log(error)) / (std::log(ya) - std::log(yb));
   return std::exp(std::log(a.cost) + share * (std::log(b.cost) - std::log(a.cost)));

@@ -7,14 +7,14 @@
 
 namespace carom::chart {
 
-// One line a point and measure. cost in CPU seconds per disk and mean free time (per disk and diameter^2 / D for
-// Brownian motion); orders are empty where there is no fit or no prediction. Lines of scenes "fluid_N" are the
-// fluid with N disks; their measure is the frames that it took to advance by dt.
+// One line for each point and measure. cost in CPU seconds per disk and mean free time (per disk and diameter^2 / D for
+// Brownian motion); orders are empty if there is no fit or no prediction. Lines of scenes "fluid_N" are for the fluid
+// with N disks; their measure is the number of frames needed to advance by dt.
 std::string csv_of(const ChartResult& result);
 
-// Cheapest cost at which a curve's error in a measure is at most `error`: read off its points, between two of them
-// along the straight line of logarithms. Exact, whose error is below what can be seen, gives its cost, but for the
-// spread of Brownian motion, in which it has the error of its interval. None where the curve does not reach so far.
+// The lowest cost at which a curve's error in a measure is at most `error`: from its points, with straight lines in
+// logarithms between them. For exact, whose error is too small to be seen, it is exact's cost, except for the spread of
+// Brownian motion, in which exact has the error of its interval. None if the curve does not reach the error.
 std::optional<double> cost_at(const Curve& curve, Measure measure, double error);
 
 }  // namespace carom::chart

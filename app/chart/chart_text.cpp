@@ -18,7 +18,7 @@ using chart::Point;
 
 namespace {
 
-// An error, or what it is seen to be below.
+// An error, or the bound below which it is.
 std::string error_text(const Point& p, Measure measure) {
   const chart::Mean& m = p[measure];
   const double size = std::abs(m.value);
@@ -39,7 +39,7 @@ const char* figure_name(Figure figure) {
   }
 }
 
-// What an error is at most, by what was seen.
+// An upper bound of an error from the samples.
 double bound_of(const Point& p, Measure measure) {
   const chart::Mean& m = p[measure];
   const double size = std::abs(m.value);

@@ -8,8 +8,7 @@
 
 namespace carom {
 
-// What each method and step costs in a run of the scene to its end, and how wrong it is; which is the cheapest for an
-// error.
+// The cost and the error of each method and step in a run of the scene to its end, and the cheapest one for an error.
 std::string own_chart_text(const chart::SceneResult& result, const Scene& scene);
 
 }  // namespace carom

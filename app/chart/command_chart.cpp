@@ -33,7 +33,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::array<const char*, 6> file_names{"chart.svg",     "chart.png", "chart_all.svg",
                                                 "chart_all.png", "chart.csv", "chart.json"};
 
-// Refuses a folder that cannot take the chart now, rather than after half an hour. Leaves nothing behind.
+// Refuses a folder that cannot take the chart now, not after half an hour. Leaves nothing behind.
 void check_folder(const fs::path& folder, bool force) {
   std::error_code error;
   if (fs::exists(folder, error) && !fs::is_directory(folder, error)) {
@@ -43,7 +43,7 @@ void check_folder(const fs::path& folder, bool force) {
     if (force || !fs::exists(folder / name, error)) continue;
     fail_input((folder / name).string(), "exists already", "expected another folder (-o), or --force to replace it");
   }
-  fs::path made;  // the outermost folder that is not there yet; a link is there, whatever it leads to
+  fs::path made;  // the outermost folder that does not exist; a link exists, whatever it leads to
   for (fs::path p = fs::absolute(folder).lexically_normal();
        !p.empty() && fs::symlink_status(p, error).type() == fs::file_type::not_found; p = p.parent_path()) {
     made = p;
@@ -55,7 +55,7 @@ void check_folder(const fs::path& folder, bool force) {
   if (!made.empty()) fs::remove_all(made, error);
 }
 
-// Share done and time left.
+// The completed share, and the remaining time.
 class ChartProgress {
  public:
   explicit ChartProgress(bool quiet) : line_(!quiet) {}
@@ -85,7 +85,7 @@ Json number(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
 }
 
-// For each scene and error: what each method costs at an error of 1e-2, 1e-3 and 1e-4, and which is the cheapest.
+// For each scene and error: the cost of each method at an error of 1e-2, 1e-3 and 1e-4, and the cheapest one.
 Json verdicts_of(const chart::SceneResult& scene) {
   Json all = Json::array();
   for (const chart::Measure measure :
@@ -107,7 +107,7 @@ Json verdicts_of(const chart::SceneResult& scene) {
   return all;
 }
 
-// Of a scene of the user's own they begin with its own; one that starts alike is run once.
+// For a user's own scene seeds begin with its own; one with the same start for every seed is run once.
 std::string seeds_text(const chart::ChartScene& scene, const chart::Effort& effort) {
   const std::uint64_t first = scene.own ? scene.own->seed : 1;
   if (scene.same_start) return fmt::format("{}", first);
@@ -139,7 +139,7 @@ Json json_of(const chart::ChartResult& result, const chart::Effort& effort, int 
   return j;
 }
 
-// Draws beside its place, then moves both pictures there.
+// Draws both pictures beside the destination, then moves them there.
 bool draw(const LogFigure& figure, const fs::path& folder, const std::string& name) {
   const std::string svg = folder / (name + ".svg"), png = folder / (name + ".png");
   std::error_code error;
@@ -178,7 +178,7 @@ int command_chart(const ChartOptions& options) {
   progress.clear();
   fs::create_directories(folder);
   replace_file(folder / "chart.csv", chart::csv_of(result));
-  // What of a scene's file name is no UTF-8 is replaced.
+  // Bytes of a scene's file name that are not UTF-8 are replaced.
   replace_file(
       folder / "chart.json",
       json_of(result, effort, threads, seconds_since(start)).dump(2, ' ', false, Json::error_handler_t::replace) +
