@@ -22,19 +22,19 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Random addition jams at a packing fraction of 0.547 (equal disks): sources find no room much beyond it.
+// Random addition jams at a packing fraction of 0.547 (equal disks): sources find hardly any room beyond it.
 constexpr double source_fill = 0.547;
 
-// So many draws of a source give the smallest disk and the mean area.
+// The number of draws of a source from which the smallest disk and the mean area are found.
 constexpr Count most_draws = 1000;
 
-// How far a disk whose edge has this place may fall towards the side.
+// How far a disk at this place may fall towards the side.
 double way_to(Side side, const Domain& box, Vec2 centre, double radius) {
   return std::max(-reach_beyond(side, centre.x, centre.y, radius, box), 0.0);
 }
 
-// The speed of a disk of this speed when it has fallen from its place to the sides that gravity presses it against;
-// where there is none it falls to the end.
+// The speed that a disk of this speed has after falling from its place to the sides towards which gravity pulls it; if
+// there is no such side it falls to the end of the run.
 double fallen_speed(const Scene& scene, double speed, Vec2 centre, double radius) {
   double square = speed * speed, endless = 0.0;
   for (const Side side : all_sides) {
@@ -49,7 +49,7 @@ double fallen_speed(const Scene& scene, double speed, Vec2 centre, double radius
   return std::sqrt(square) + endless;
 }
 
-// What a source will have emitted, as far as it finds room.
+// The number of disks that a source emits, as far as it finds room.
 double emitted_by(const Source& source, double t_end) {
   return static_cast<double>(due_before(source, t_end));
 }
@@ -57,17 +57,17 @@ double emitted_by(const Source& source, double t_end) {
 struct SourceDisks {
   double smallest_radius = infinity;
   double mean_area = 0.0;
-  double speed = 0.0;          // of the fastest of all that it emits
+  double speed = 0.0;          // of the fastest disk emitted
   double lightest = infinity;  // mass
-  Vec2 centre;                 // from which they fall furthest
+  Vec2 centre;                 // the place from which disks fall furthest
 };
 
-// The corner, of a rectangle, from which a disk falls furthest.
+// The corner of a rectangle from which a disk falls furthest.
 Vec2 highest_corner(const Gravity& g, Vec2 low, Vec2 high) {
   return {g.left < 0.0 ? low.x : high.x, g.down < 0.0 ? low.y : high.y};
 }
 
-// Where the disks of a source may begin.
+// The place where a source's disks can begin from which they fall furthest.
 Vec2 highest_place(const Scene& scene, const Source& source) {
   const Gravity& g = scene.physics.gravity;
   if (!source.side) return highest_corner(g, source.region_low, source.region_high);
@@ -102,7 +102,7 @@ SourceDisks disks_of(const Scene& scene, const Source& source) {
   }
   const VelocityLaw& law = source.velocities;
   if (law.kind == VelocityLaw::Kind::uniform) d.speed = std::numbers::sqrt2 * law.limit;
-  // Of n draws in two dimensions the fastest has m v^2 / 2 = T ln n.
+  // In two dimensions the fastest of n draws has about m v^2 / 2 = T ln n.
   if (law.kind == VelocityLaw::Kind::maxwell) {
     d.speed = std::sqrt(2.0 * law.temperature / mass * std::log(std::max(2.0, count)));
   }
@@ -119,7 +119,7 @@ double speed_of(const Disks& d, std::size_t i) {
   return std::hypot(d.vx[i], d.vy[i]);
 }
 
-// What gives disks speeds of its own: the fastest wall, a side or an inner one, and the hottest side or thermostat.
+// What gives speed to disks: the fastest wall, a side or an inner one, and the hottest side or thermostat.
 struct Drive {
   double wall = 0.0;         // length / time
   double temperature = 0.0;  // mass length^2 / time^2
@@ -131,22 +131,22 @@ struct Drive {
       temperature = std::max(temperature, scene.box.temperature(side));
     }
   }
-  // Of the fastest of n disks, of this mass, that start at this speed: of n draws in two dimensions the fastest has
-  // m v^2 / 2 = T ln n; and a wall that moves sends a disk off faster by twice its own speed.
+  // The speed of the fastest of n disks, of this mass, that start at this speed: in two dimensions the fastest of n
+  // draws has m v^2 / 2 = T ln n, and a moving wall sends a disk off faster by twice the wall's speed.
   double speed(double start, double mass, double n) const {
     return std::max(start, std::sqrt(2.0 * temperature / mass * std::log(std::max(2.0, n)))) + 2.0 * wall;
   }
 };
 
-// A Brownian step is sqrt(2 D dt) in each direction; three of that, as some disk always moves so far. The exact method
-// splits none, and warns where that of one disk is too long for its collisions.
+// A Brownian step is sqrt(2 D dt) in each direction; three times that is allowed for, since some disk always moves so
+// far. The exact method divides no steps, and warns if that of one disk is too long for its collisions.
 double brownian_step(const Scene& scene, double radius) {
   if (!(scene.physics.diffusion > 0.0)) return infinity;
   const double share = (scene.run.method == Method::exact ? largest_brownian_step : safe_travel / 3.0) * radius;
   return share * share / (2.0 * scene.physics.diffusion);
 }
 
-// Of steps that draw their own speeds, or that no speed splits.
+// For steps that draw their own speeds, or that no speed divides.
 StepForesight foresee_brownian_steps(const Scene& scene, const Disks& start) {
   double radius = start.empty() ? infinity : smallest_radius(start);
   StepForesight f;
@@ -159,15 +159,15 @@ StepForesight foresee_brownian_steps(const Scene& scene, const Disks& start) {
   return f;
 }
 
-// When a disk that falls so far towards this side, moving away from it at `rising`, has bounced its last there, if
-// nothing else meets it: the flights become shorter by the wall's restitution each time.
+// The time at which a disk at this distance from a side, moving away from it at `rising`, has bounced there for the
+// last time, if it meets nothing else: each flight is shorter than the last by the wall's restitution.
 double rest_time(const Scene& scene, Side side, double way, double rising) {
   const double g = outward_acceleration(side, scene.physics.gravity), e = scene.box.restitution(side);
   const double landing = std::sqrt(rising * rising + 2.0 * g * way);
   return (rising + landing) / g + 2.0 * landing * e / (g * (1.0 - e));
 }
 
-// The first disk to come to rest on this side.
+// The time at which the first disk comes to rest on this side.
 double first_rest(const Scene& scene, Side side, const Disks& start) {
   double first = infinity;
   for (std::size_t i = 0; i < start.size(); ++i) {
@@ -236,7 +236,7 @@ StepForesight foresee_steps(const Scene& scene, const Disks& start) {
     see(speed, {start.x[i], start.y[i]}, r);
   }
   const double fall_at_start = radius < infinity ? g / radius : 0.0;
-  if (radius < infinity) fastest += fastest_inner_wall(scene) / radius;  // which may not jump over a disk either
+  if (radius < infinity) fastest += fastest_inner_wall(scene) / radius;  // neither may a wall jump over a disk
   f.at_start = std::min(step_within(safe_travel, fastest, fall_at_start), brownian_step(scene, radius));
   for (const Source& source : scene.sources) {
     if (!emits(scene, source)) continue;
@@ -259,7 +259,7 @@ Population foresee_population(const Scene& scene, const Disks& start) {
   for (const Source& source : scene.sources) {
     const double emitted = emitted_by(source, scene.run.t_end);
     if (!(emitted >= 1.0)) continue;
-    // A rise of constant rate, and from its end on no more.
+    // The number rises at a constant rate, and stays constant from the end of the source on.
     const double filling = std::min(1.0, emitted / (source.rate * scene.run.t_end));
     p.mean += emitted * (1.0 - 0.5 * filling);
     p.end += emitted;
@@ -290,8 +290,8 @@ CollapseForesight foresee_collapse(const Scene& scene, const Disks& start) {
 
 namespace {
 
-// Is it a straight line from one periodic side to the other that moves along itself? Then it looks the same at all
-// times, and does nothing to disks unless it is rough.
+// Is the wall a straight line from one periodic side to the other that moves along itself? Then it looks the same at
+// all times, and has no effect on disks unless it is rough.
 bool runs_round(const InnerWall& wall, const Domain& box) {
   if (!wall.motion.moves() || wall.points.size() != 2) return false;
   const Vec2 a = wall.points.front(), b = wall.points.back(), along = wall.motion.along;
@@ -321,7 +321,8 @@ void add_collapse(const CollapseForesight& collapse, std::vector<std::string>& t
       when));
 }
 
-// What a dt longer than the safe step leads to. Sure are the speeds of the start alone: those of a fall through the
+// The consequence of a dt longer than the safe step. Only the speeds of the start are certain: those of a fall through
+// the whole box or off the fastest wall, and three deviations of a draw, may never be reached.
 // whole box or off the fastest wall, and three deviations of a draw, need not be reached.
 const char* outcome_of_long_step(const Scene& scene, const StepForesight& steps) {
   if (scene.run.method == Method::exact) return "collisions of Brownian disks will be wrong";

@@ -35,22 +35,22 @@ namespace {
 namespace fs = std::filesystem;
 using Sizes = std::map<std::string, double>;
 
-// A frame of so many disks is written, at most; of more it is scaled up.
+// The largest number of disks in a frame that is written; for more disks the result is scaled up.
 constexpr std::size_t most_rehearsed = 100'000;
-// Enough to tell the cost of a frame from that of starting ffmpeg.
+// Enough to distinguish the cost of a frame from that of starting ffmpeg.
 constexpr Count rehearsed_frames = 24;
-constexpr double slow_frame = 1.0;  // seconds, ffmpeg's start included
-// Of more disks, counting their pairs once would take too long.
+constexpr double slow_frame = 1.0;  // seconds, including ffmpeg's start
+// With more disks, counting their pairs once would take too long.
 constexpr std::size_t most_sampled = 2'000'000;
 
-// Where nothing can be written: bytes of a disk in a frame of trajectory.xyz, with all digits, and of trajectory.h5,
-// packed, in double and single precision; of a frame in series.csv and in a movie.
+// Used if nothing can be written: bytes of a disk in a frame of trajectory.xyz, with all digits, and of trajectory.h5,
+// packed, in double and single precision; and bytes of a frame in series.csv and in a movie.
 constexpr double xyz_bytes = 134.0, xyz_spin_bytes = 21.0, xyz_single_bytes = 99.0, xyz_single_spin_bytes = 12.0,
                  h5md_bytes = 32.0, h5md_single_bytes = 15.0, row_bytes = 200.0, movie_bytes = 2e4;
-// gnuplot's SVG: of a panel's axes, of a curve's name and style, and of a point.
+// Bytes in gnuplot's SVG: of a panel's axes, of a curve's name and style, and of a point.
 constexpr double panel_bytes = 17e3, curve_bytes = 450.0, point_bytes = 15.0;
 
-// Processor time of this process and of those that it has waited for.
+// Processor time of this process and of those for which it has waited.
 double cpu_seconds_with_children() {
   double seconds = 0.0;
   for (const int who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
@@ -63,7 +63,7 @@ double cpu_seconds_with_children() {
   return seconds;
 }
 
-// A coordinate that went on in a straight line, brought back by the sides.
+// A coordinate that continued in a straight line, wrapped or reflected by the sides.
 double folded(double c, double low, double high, bool periodic) {
   const double length = high - low;
   if (!(length > 0.0)) return c;
@@ -73,8 +73,8 @@ double folded(double c, double low, double high, bool periodic) {
   return low + (part < length ? part : 2.0 * length - part);
 }
 
-// How far disk i goes in that time where nothing stops it; if it is Brownian, as far as disks diffuse, in a direction
-// of its own.
+// The displacement of disk i in that time if nothing stops it; for a Brownian disk, as far as disks diffuse, in a
+// direction that depends on i.
 Vec2 way_of(const Disks& disks, std::size_t i, const Scene& scene, double time) {
   if (scene.physics.diffusion > 0.0) {
     const double spread = std::sqrt(2.0 * scene.physics.diffusion * time);
@@ -85,7 +85,7 @@ Vec2 way_of(const Disks& disks, std::size_t i, const Scene& scene, double time) 
   return {disks.vx[i] * time - fall * g.left, disks.vy[i] * time - fall * g.down};
 }
 
-// The disks some time later, as if they did not collide: movies of disks at rest would be too cheap.
+// The disks some time later, as if they did not collide: a movie of disks at rest would be too cheap.
 Disks moved(const Disks& disks, const Scene& scene, double time) {
   Disks later = disks;
   const bool periodic_x = scene.box.periodic_x(), periodic_y = scene.box.periodic_y();
@@ -96,13 +96,13 @@ Disks moved(const Disks& disks, const Scene& scene, double time) {
     later.x[i] = folded(later.x[i] + way.x, margin_x, scene.box.width - margin_x, periodic_x);
     later.y[i] = folded(later.y[i] + way.y, margin_y, scene.box.height - margin_y, periodic_y);
     if (later.spin.empty()) continue;
-    // That collisions will have brought, where a run starts without.
+    // The spin that collisions will have given, if a run starts without.
     later.spin[i] += std::hypot(later.vx[i], later.vy[i]) / r * std::sin(3.0 * static_cast<double>(i));
   }
   return later;
 }
 
-// As many disks as there will be in the mean, those of sources somewhere in the box; at most most_rehearsed.
+// The mean number of disks of the run, those of sources at any place in the box; at most most_rehearsed.
 Disks typical_disks(const Scene& scene, const State& state, double count) {
   const auto wanted = static_cast<std::size_t>(std::clamp(count, 0.0, static_cast<double>(most_rehearsed)));
   Disks disks = state.disks;
@@ -124,17 +124,17 @@ Disks typical_disks(const Scene& scene, const State& state, double count) {
   return disks;
 }
 
-// What is written to see what it costs.
+// What is written in order to measure its cost.
 struct Rehearsal {
   Scene scene;
   const EngineChoice& choice;
-  const Engine& tried;  // that has made the first steps of the run
+  const Engine& tried;  // has made the first steps of the run
   Disks shown;          // in a frame
 };
 
 struct Rehearsed {
   double wall = 0.0, cpu = 0.0;  // seconds
-  double sample_seconds = 0.0;   // each
+  double sample_seconds = 0.0;   // of each sample
   Sizes sizes;
 };
 
@@ -157,7 +157,7 @@ double seconds_of_sample(RunningAnalysis& analysis, const Engine& tried) {
   return seconds_since(start);
 }
 
-// So many frames in a new folder, and a sample of the analysis if it is wanted.
+// Writes this number of frames in a new folder, and takes a sample of the analysis if that is wanted.
 Rehearsed rehearse(const Rehearsal& what, const fs::path& path, Count frames, bool sample) {
   const Scene& scene = what.scene;
   Rehearsed r;
@@ -179,14 +179,14 @@ Rehearsed rehearse(const Rehearsal& what, const fs::path& path, Count frames, bo
   return r;
 }
 
-// The time of one plot: almost all of it is starting gnuplot.
+// The time for one plot: almost all of it is gnuplot's start.
 double plot_seconds(const fs::path& folder) {
   const auto start = WallClock::now();
   const EnergyRecord record{{0.0, 1.0}, {1.0, 1.0}, {0.0, 0.0}, {1.0, 1.0}};
   return plot_energy((folder / "energy.svg").string(), "", record) ? seconds_since(start) : 0.0;
 }
 
-// Bytes and time of view.html, which reads the trajectory twice; figures of docs/viewer.md.
+// Bytes and time of view.html, which reads the trajectory twice; numbers from docs/viewer.md.
 void add_page(const Scene& scene, double shown, OutputForesight& f) {
   constexpr double page_bytes = 66e3, disk_bytes = 2.0, xyz_s = 1.7e-6, h5md_s = 0.4e-6;
   const double disk_frames = shown * static_cast<double>(f.frames);
@@ -204,13 +204,13 @@ double ffmpeg_bytes(const Scene& scene) {
   return at_least + pixel_bytes * static_cast<double>(layout.width) * static_cast<double>(layout.height);
 }
 
-// A plot of frames: in how many panels how many curves there are in all.
+// The form of a plot over frames: the number of panels, and of curves in all of them.
 struct PlotForm {
   double panels, curves;
 };
 
-// Two components of the velocity: a curve for each disk, or the edges of bands and the lines along them. The energy:
-// total and kinetic, and what it consists of besides.
+// Two components of the velocity, each with a curve for each disk, or with the edges of bands and the lines along them.
+// The energy: total, kinetic, and its other parts.
 PlotForm plot_form(const Scene& scene, std::string_view plot, double disks) {
   if (plot != "velocity") {
     return {1.0, 2.0 + static_cast<double>(scene.physics.gravity.acts()) +
@@ -229,7 +229,7 @@ void add_plots(const Scene& scene, double disks, OutputForesight& f) {
   }
 }
 
-// Of a frame's disks those of the group that the trajectory shows; of those from sources, all.
+// The number of a frame's disks in the group that the trajectory shows; disks from sources all count.
 double disks_shown(const Scene& scene, double disks) {
   const IdRange& ids = scene.output.select.ids;
   return std::min(disks, static_cast<double>(ids.end) - static_cast<double>(ids.first));
@@ -254,15 +254,16 @@ void guess_files(const Scene& scene, double disks, OutputForesight& f) {
   if (plan.movie) f.files.emplace_back("movie.mp4", movie_bytes * frames);
 }
 
-// From two rehearsals, of one frame and of several, to all frames. scale: disks that a frame has over those rehearsed.
+// Extrapolates from two rehearsals, of one frame and of several, to all frames. scale: disks in a frame over those
+// rehearsed.
 void extrapolate(const Rehearsed& one, const Rehearsed& several, Count rehearsed, double scale, OutputForesight& f) {
   const double more = std::max(1.0, static_cast<double>(rehearsed - 1));
   const double rest = static_cast<double>(f.frames) - 1.0;
-  // A frame's cost is measured in processor time, as wall time depends on how busy the machine is; their ratio says how
-  // busy.
+  // A frame's cost is measured in processor time, since wall time depends on how busy the machine is; their ratio shows
+  // how busy it is.
   const double each = std::max(0.0, several.cpu - one.cpu) / more;
   const double busy = (one.wall + several.wall) / std::max(1e-9, one.cpu + several.cpu);
-  const double start = several.cpu > one.cpu ? std::max(0.0, one.cpu - each) : 0.0;  // ffmpeg's, whatever the disks
+  const double start = several.cpu > one.cpu ? std::max(0.0, one.cpu - each) : 0.0;  // ffmpeg's
   f.files_s = busy * (start + scale * (one.cpu - start + each * rest));
   for (const auto& [name, bytes] : several.sizes) {
     const auto first = one.sizes.find(name);
@@ -284,19 +285,19 @@ void rehearse_files(const Scene& scene, const EngineChoice& choice, const Engine
   const Rehearsed one = rehearse(rehearsal, workshop / "one", std::min<Count>(f.frames, 1), sample);
   f.analysis_s = one.sample_seconds * static_cast<double>(f.samples);
   if (f.frames == 0) return;
-  // A frame that takes long is enough to measure, except for what happens before the first frame.
+  // A frame that takes long is enough for the measurement, except for the work before the first frame.
   const Count several = std::min(f.frames, one.cpu < slow_frame ? rehearsed_frames : 2);
   const Rehearsed more = several > 1 ? rehearse(rehearsal, workshop / "more", several, false) : one;
   extrapolate(one, more, several, scale, f);
   std::erase_if(f.files, [](const auto& file) { return file.first == "analysis.h5"; });
 }
 
-// So many quantities are measured on the way, a plot each.
+// The number of quantities that are measured during the run, with a plot each.
 double quantities_of(const Scene& scene) {
   return static_cast<double>(std::count(scene.analysis.wanted.begin(), scene.analysis.wanted.end(), true));
 }
 
-// Of a state like this one, but with so many disks.
+// For a state like this one with this number of disks.
 double checkpoint_bytes(const State& state, double disks) {
   const Disks& d = state.disks;
   if (d.size() > most_rehearsed) {
@@ -310,8 +311,8 @@ double checkpoint_bytes(const State& state, double disks) {
          disk_bytes * (disks - static_cast<double>(d.size()));
 }
 
-// What a checkpoint keeps for plots that are drawn at the end, a frame: ten curves and the bands, or energies; and the
-// counts of rounds for trajectories, a disk.
+// What a checkpoint keeps: for plots that are drawn at the end, for each frame, ten curves and the bands, or energies;
+// for trajectories, for each disk, the counts of rounds.
 double remembered_bytes(const Scene& scene, double frames, double disks) {
   constexpr double velocity_bytes = 360.0, energy_bytes = 32.0, rounds_bytes = 8.0;
   double bytes = 0.0;
@@ -347,7 +348,7 @@ OutputForesight foresee_outputs(const Scene& scene, const EngineChoice& choice, 
   const bool draws = plots > 0.0 && !find_program("gnuplot").empty();
   if (scene.output.movie && !finds_ffmpeg()) f.missing.emplace_back(without_ffmpeg);
   if (plots > 0.0 && !draws) f.missing.emplace_back(without_gnuplot);
-  const HeldSignals held;  // until the workshop is gone
+  const HeldSignals held;  // until the workshop is removed
   try {
     std::error_code error;
     const fs::path temporary = fs::temp_directory_path(error);
@@ -355,7 +356,7 @@ OutputForesight foresee_outputs(const Scene& scene, const EngineChoice& choice, 
     const ScratchFolder workshop(temporary, "carom-check");
     rehearse_files(scene, choice, tried, population.mean, workshop.path(), f);
     if (draws) f.plots_s = plots * plot_seconds(workshop.path());
-  } catch (const std::runtime_error& error) {  // a full disk, or a folder that takes no files
+  } catch (const std::runtime_error& error) {  // a full disk, or a folder that cannot be written
     f.files.clear();
     f.not_tried = error.what();
     guess_files(scene, population.mean, f);
@@ -373,7 +374,7 @@ OutputForesight foresee_outputs(const Scene& scene, const EngineChoice& choice, 
   if (scene.output.checkpoint > 0.0) {
     const double bytes = checkpoint_bytes(tried.state(), population.end);
     const double remembered = remembered_bytes(scene, static_cast<double>(f.frames), population.end);
-    // Where the run ends before its second checkpoint is due, the one before the last is that of its start.
+    // If the run ends before its second checkpoint is due, the previous one is that of its start.
     const bool one_alone = step_seconds < scene.output.checkpoint;
     f.files.emplace_back(checkpoint_name, bytes + remembered);
     f.files.emplace_back(previous_checkpoint_name,

@@ -27,7 +27,7 @@ std::string range_text(double low, double high) {
 std::string method_text(const Scene& scene) {
   const std::string_view name = name_of(scene.run.method);
   if (!uses_dt(scene)) return fmt::format("{} to t = {:g}", name, scene.run.t_end);
-  // A window ends at a draw, or before; a frame of rollback may be shorter than dt.
+  // A window ends at a draw or before one; a frame of rollback may be shorter than dt.
   const char* const each = scene.run.method == Method::exact ? "draw" : "step";
   return fmt::format("{}, dt = {:g}, {}{} to t = {:g}", name, scene.run.dt,
                      counted(make_step_clock(scene.run.dt, scene.run.t_end).steps, each),
@@ -39,7 +39,7 @@ std::string step_text(const Scene& scene, const Findings& f) {
   if (std::isinf(safe)) return "any: nothing moves";
   std::string text = fmt::format("{:.3g} or less", safe);
   if (f.steps.at_start > f.steps.later) {
-    // Of disks that are at rest there, any.
+    // If the disks are at rest at the start, any step.
     const std::string at_start = std::isinf(f.steps.at_start) ? "any" : fmt::format("{:.3g}", f.steps.at_start);
     text += fmt::format(": {} at the speeds of the start, {:.3g} ", at_start, f.steps.later);
     text += f.steps.landing_speed > 0.0 ? fmt::format("after falling (speed {:.3g})", f.steps.landing_speed)
@@ -82,7 +82,7 @@ std::string outputs_text(const Scene& scene, const Findings& f) {
   return o.not_tried.empty() ? text : text + fmt::format(" (guessed: {})", o.not_tried);
 }
 
-// The parts that make up the cost, those that matter.
+// The parts of the cost that matter.
 std::string cost_text(const Scene& scene, const Findings& f) {
   if (!f.stopped.empty()) return fmt::format("stops early: {}", f.stopped);
   std::string text = fmt::format("about {} on this machine, from a trial: steps {}", duration_text(f.seconds()),
@@ -95,7 +95,7 @@ std::string cost_text(const Scene& scene, const Findings& f) {
   part("analysis", f.outputs.analysis_s);
   part("plots", f.outputs.plots_s);
   if (has_sinks(scene) && f.population.end > f.population.start) text += "; less as sinks take disks away";
-  // The trial sees the disks fall.
+  // The trial includes only the fall of the disks.
   if (!settles(scene)) return text;
   if (scene.run.method == Method::pairwise) {
     text += "; once disks lie in a pile, a step takes 5 to 50 times as long, the longer the taller it is";
@@ -143,7 +143,7 @@ std::string ranks_text(const RankForesight& r) {
                      short_number(r.traffic.bytes), tried);
 }
 
-// A new key is a row here.
+// For a new key, add a row here.
 const JsonKey<Told> check_keys[] = {
     {"scene", "", "the scene's file", [](const Told& t) -> Json { return t.scene.file; }},
     {"method", "", "`rollback`, `pairwise` or `exact`",
@@ -193,7 +193,7 @@ const JsonKey<Told> check_keys[] = {
      [](const Told& t) -> Json { return t.accuracy ? offers_json(t.scene, *t.accuracy) : absent(); }},
 };
 
-// tried: were steps, and outputs?
+// tried: have steps and outputs been tried?
 std::string memory_text(const Findings& f, bool tried) {
   const std::string bytes = short_number(f.memory_bytes);
   if (!tried) return fmt::format("at least {}B", bytes);

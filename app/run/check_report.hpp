@@ -1,4 +1,4 @@
-// What carom check says, as text and as JSON.
+// The output of carom check, as text and as JSON.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace carom {
 
-// A growth that takes longer is not worth waiting for here; seconds.
+// A longer growth is not worth waiting for here; seconds.
 inline constexpr double longest_growth = 10.0;
 
 struct Findings {
@@ -25,12 +25,12 @@ struct Findings {
   CollapseForesight collapse;
   std::vector<std::string> troubles;
   OutputForesight outputs;
-  double start_seconds = 0.0;   // of making the initial state
-  double growth_seconds = 0.0;  // of one core; above longest_growth the disks were not grown, and no step tried
-  double step_seconds = 0.0;    // of all steps, extrapolated from the first ones; may be infinite
+  double start_seconds = 0.0;   // time to make the initial state
+  double growth_seconds = 0.0;  // on one core; above longest_growth the disks were not grown, and no step was tried
+  double step_seconds = 0.0;    // for all steps, extrapolated from the first ones; may be infinite
   double memory_bytes = 0.0;
-  std::optional<RankForesight> ranks;  // where they were asked for
-  std::string stopped;                 // what the physics said, if it stopped the trial
+  std::optional<RankForesight> ranks;  // if requested
+  std::string stopped;                 // the message of the physics, if it stopped the trial
 
   double seconds() const { return start_seconds + step_seconds + outputs.seconds(); }
 };
@@ -38,7 +38,7 @@ struct Findings {
 std::string check_text(const Scene& scene, const Findings& found, const std::optional<double>& accuracy);
 std::string check_json(const Scene& scene, const Findings& found, const std::optional<double>& accuracy);
 
-// What docs/scene.md says of each key of that object.
+// The texts of docs/scene.md about the keys of that object.
 std::vector<KeyText> check_key_texts();
 
 }  // namespace carom

@@ -32,9 +32,9 @@ namespace carom {
 
 namespace {
 
-// Time spent on trying the scene's first steps, in seconds: long enough to tell the cost, short enough to wait for.
+// Time for trying the scene's first steps, in seconds: long enough to measure the cost, short enough to wait for.
 constexpr double trial_seconds = 0.2;
-// What MPI takes of a process of several ranks, beyond what a process without it does; bytes, measured.
+// Memory that MPI uses in a process of several ranks, beyond that of a process without it; bytes, measured.
 constexpr double mpi_bytes = 25e6;
 // A step that takes longer is given up; seconds.
 constexpr double longest_trial = 60.0;
@@ -53,8 +53,8 @@ void measure_sizes(const Scene& scene, const Disks& disks, Findings& f) {
   f.packing_fraction = area / (scene.box.width * scene.box.height);
 }
 
-// What growing the scene's disks takes, by the measurements in docs/methods.md: collisions a disk rise steeply towards
-// the densest mixtures.
+// The time for growing the scene's disks, from the measurements in docs/methods.md: collisions a disk rise steeply
+// towards the densest mixtures.
 double growth_seconds(const Scene& scene, const Findings& f) {
   if (!grows(scene)) return 0.0;
   constexpr double seconds_a_collision = 2e-6;
@@ -63,7 +63,7 @@ double growth_seconds(const Scene& scene, const Findings& f) {
   return 0.5 * seconds_a_collision * collisions_a_disk * static_cast<double>(f.disks);
 }
 
-// The scene's disks, where growing them takes too long: with their sizes and velocities, but no places.
+// The scene's disks if growing them takes too long: with their sizes and velocities, but not their places.
 State ungrown_state(const Scene& scene) {
   GrowthTools nothing;
   nothing.step = [](Disks&, const Domain&, const std::vector<double>&) { return GrowthTally{}; };
@@ -71,14 +71,14 @@ State ungrown_state(const Scene& scene) {
   return initial_state(scene, nowhere, nothing);
 }
 
-// The most memory that this process has had so far.
+// The most memory that this process has used so far.
 double peak_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
-// Takes the memory that a run takes besides its steps: a copy of the disks for its frames, their order for sums, and a
+// Uses the memory that a run needs besides its steps: a copy of the disks for its frames, their order for sums, and a
 // search for the largest overlap at the end.
 void look_as_a_run_does(const Engine& engine, const Scene& scene) {
   const Disks& disks = engine.state().disks;
@@ -89,8 +89,8 @@ void look_as_a_run_does(const Engine& engine, const Scene& scene) {
   max_overlap(disks, scene.box);
 }
 
-// Where sources fill the box the first steps say little: those of the disks that there are, scaled to as many as there
-// will be in the mean; at least what the rates of core/load/method_rates.hpp say of these.
+// If sources fill the box, the first steps are not representative: their time for the present disks is scaled to the
+// mean number of disks; the result is at least that from the rates of core/load/method_rates.hpp.
 double seconds_with_sources(const Scene& scene, const Population& population, double first_steps) {
   const double growth = population.start > 0.0 ? population.mean / population.start : 0.0;
   const double extrapolated = std::isfinite(first_steps) ? first_steps * growth : 0.0;
@@ -102,8 +102,9 @@ double seconds_with_sources(const Scene& scene, const Population& population, do
   return std::max(extrapolated, by_rates + (growth > 0.0 ? 0.0 : first_steps));
 }
 
-// What sinks will have left in the mean over the run, as a share: they take ever less as the disks near them are gone,
-// so it lies between nothing lost and a loss at the rate of the trial; the geometric mean of these.
+// The mean number of disks over the run, over that at the start, if sinks take disks. They take ever fewer as the disks
+// near them disappear, so it is between 1 (no loss) and the mean for a loss at the rate of the trial; the result is the
+// geometric mean of these.
 double share_left(const Engine& engine, const Scene& scene, const Population& population) {
   const State& now = engine.state();
   const auto left = static_cast<double>(now.disks.size());
@@ -112,7 +113,7 @@ double share_left(const Engine& engine, const Scene& scene, const Population& po
   return std::sqrt(-std::expm1(-losses) / losses);
 }
 
-// Will disks collide ever less, as they lose energy or leave, and nothing brings any?
+// Will disks collide ever less, since they lose energy or leave, and nothing adds any?
 bool runs_down(const Scene& scene) {
   const Physics& physics = scene.physics;
   const bool still = std::all_of(all_sides.begin(), all_sides.end(),
@@ -122,13 +123,14 @@ bool runs_down(const Scene& scene) {
   return nothing_comes && !(physics.diffusion > 0.0) && (disks_dissipate(scene) || has_sinks(scene));
 }
 
-// Makes the first steps, for trial_seconds after the first. The exact method is paid by the collision.
+// Makes the first steps, for trial_seconds after the first one. The cost of the exact method is proportional to
+// collisions.
 StepTrial time_steps(Engine& engine, const Scene& scene, std::string& stopped) {
   const auto start = WallClock::now();
   engine.set_watch([&] { return seconds_since(start) < longest_trial; });
   StepTrial trial;
   const bool slows = scene.run.method == Method::exact && runs_down(scene);
-  std::vector<std::pair<double, Count>> seen;  // time, and collisions up to there
+  std::vector<std::pair<double, Count>> seen;  // time, and number of collisions up to then
   try {
     while (engine.state().time < scene.run.t_end && trial.seconds < trial.first_seconds + trial_seconds) {
       engine.step();
@@ -169,7 +171,7 @@ void try_steps(Engine& engine, const Scene& scene, Findings& f) {
   }
 }
 
-// What the trial saw of sources that have no room, where it saw enough of it: a few disks may well wait for a while.
+// Reports sources that had no room in the trial, if there was enough of it: a few disks may well wait for a while.
 std::vector<std::string> waiting_in_trial(const Scene& scene, const State& now) {
   constexpr Count enough = 20;  // disks
   const Count due = now.counters.emitted + now.counters.waiting;
@@ -185,11 +187,11 @@ void try_run(const Scene& scene, const EngineChoice& choice, State initial, Find
     const double before = peak_bytes();
     found.outputs = foresee_outputs(scene, choice, *engine, found.population, found.step_seconds);
     for (const std::string& trouble : found.outputs.missing) found.troubles.push_back(trouble);
-    found.memory_bytes += peak_bytes() - before + found.outputs.ffmpeg_bytes;  // pictures, what an analysis remembers
+    found.memory_bytes += peak_bytes() - before + found.outputs.ffmpeg_bytes;  // with pictures and an analysis
   });
 }
 
-// After the memory of one process was taken down, as all ranks are threads of this one.
+// After the memory of one process has been measured, since all ranks are threads of this one.
 void try_ranks(const Scene& scene, const EngineChoice& choice, int ranks, bool tried, Findings& found) {
   if (!tried) fail_input("--ranks", "the disks grow for too long to be tried", "expected no --ranks");
   found.ranks = within_memory(scene, [&] { return foresee_ranks(scene, make_initial_state(choice, scene), ranks); });

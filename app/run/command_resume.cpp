@@ -26,7 +26,7 @@ Scene scene_of(const RunRecord& record, const SceneChanges& changes) {
   });
 }
 
-// A scene.toml that was edited is written anew.
+// Warns that an edited scene.toml will be written anew.
 void warn_of_other_scene(const CheckpointPlace& place, const RunRecord& record) {
   const fs::path file = present_path(place.folder, "scene.toml");
   if (!fs::exists(file)) return;
@@ -40,8 +40,8 @@ void warn_of_other_scene(const CheckpointPlace& place, const RunRecord& record) 
   print_warning(fmt::format("{} has changed: the run goes on with the scene in its checkpoint", file.string()));
 }
 
-// Where the results go: -o, or where those of the run lie. What a program saved lies among files of its own: the
-// results go where those of a new run do.
+// Sets the folder of the results: -o, or that of the run's files. A checkpoint saved by a program is among the
+// program's own files: the results go where those of a new run do.
 void take_folder(const ResumeOptions& options, const ResumeFrom& from, const Scene& scene, RunSettings& settings) {
   const bool of_program = is_of_program(from.checkpoint.record);
   if (!options.folder && of_program) {

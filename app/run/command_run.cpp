@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Where the results go, -o or the usual folder, and which that is.
+// Sets the folder of the results: -o or the usual folder.
 void take_folder(const RunOptions& options, const Scene& scene, RunSettings& settings) {
   if (options.folder) {
     check_output_folder(*options.folder, options.scene, options.force);

@@ -1,4 +1,4 @@
-// The line of progress of the growth of an initial state.
+// The line of progress for the growth of an initial state.
 #pragma once
 
 #include <functional>
@@ -7,8 +7,8 @@
 
 namespace carom {
 
-// To be called after each step of the growth: keeps the line (status_line.hpp) on standard error and takes it away when
-// the last copy goes. Empty where nothing is wanted.
+// Returns a function to be called after each step of the growth: it keeps the line (status_line.hpp) on standard error
+// and removes it when its last copy is destroyed. Empty if the line is not wanted.
 std::function<void(const GrowthProgress&)> growth_line(bool wanted);
 
 }  // namespace carom

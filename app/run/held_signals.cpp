@@ -6,9 +6,9 @@ namespace carom {
 
 namespace {
 
-// What a handler may touch has to be static: it is called with a number and nothing else.
+// Variables that a handler uses have to be static, since it is called only with a number.
 std::atomic<int> held = 0;
-static_assert(std::atomic<int>::is_always_lock_free);  // as a handler needs
+static_assert(std::atomic<int>::is_always_lock_free);  // required in a handler
 
 extern "C" void hold_signal(int signal) {
   held = signal;

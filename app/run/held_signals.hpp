@@ -1,4 +1,4 @@
-// Signals that end the program wait while there are files that nothing else would take away.
+// Signals that end the program wait while there are files that nothing else would remove.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 namespace carom {
 
 // From construction to destruction SIGINT, SIGTERM and SIGHUP are only noted; a second one ends the program at once.
-// What has come does at the end what it would have done. One at a time.
+// The destructor raises a noted signal again. Only one object may exist at a time.
 class HeldSignals {
  public:
   HeldSignals();
@@ -16,7 +16,7 @@ class HeldSignals {
   HeldSignals(const HeldSignals&) = delete;
   HeldSignals& operator=(const HeldSignals&) = delete;
 
-  // Throws HeldSignal where one has come, so that what is there goes away now.
+  // Throws HeldSignal if a signal has come, so that the present files are removed now.
   static void end_if_asked();
 
  private:
@@ -24,7 +24,7 @@ class HeldSignals {
   std::array<struct sigaction, signals.size()> before_{};
 };
 
-// On its way out of the HeldSignals, which end the program then.
+// Unwinds to the HeldSignals, which then end the program.
 struct HeldSignal : std::exception {
   const char* what() const noexcept override { return "ended by a signal"; }
 };

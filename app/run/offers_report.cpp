@@ -21,10 +21,10 @@ std::string offer_text(const MethodOffer& offer, bool best) {
                      duration_text(offer.seconds), offer.why);
 }
 
-// What the error is one of.
+// The quantities whose error is meant.
 const char* averages_of(const Scene& scene, const MethodChoice& choice) {
   if (scene.physics.diffusion > 0.0) return "mean square displacement";
-  // Where disks come to rest, how often they still hit each other depends on the step: soft hits become load.
+  // If disks come to rest, the number of their further collisions depends on the step: soft hits become load.
   if (choice.scales.settles) return "energy lost; not collisions, of which a pile has as many as steps show";
   return disks_dissipate(scene) ? "collision rate, pressure, cooling rate" : "collision rate, pressure";
 }

@@ -1,5 +1,5 @@
-// What carom check --accuracy says: each method's step, error and cost, and which is the cheapest. Costs are those of
-// the machine that core/load/method_rates.hpp was measured on. Precondition of both: as of choose_method.
+// The output of carom check --accuracy: each method's step, error and cost, and the cheapest one. Costs are those of
+// the machine on which core/load/method_rates.hpp was measured. Precondition of both functions: as for choose_method.
 #pragma once
 
 #include <nlohmann/json.hpp>

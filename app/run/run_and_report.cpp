@@ -16,7 +16,7 @@ namespace carom {
 
 namespace {
 
-// Runs with what the run says shown as it comes, a line of progress below.
+// Runs the scene and shows its messages as they come, above a line of progress.
 RunOutcome run_shown(const CarryOptions& options, const Scene& scene, RunSettings settings,
                      std::optional<ResumeFrom> from, std::unique_ptr<SetupWatch> setup) {
   std::optional<Progress> progress;
@@ -35,7 +35,7 @@ RunOutcome run_shown(const CarryOptions& options, const Scene& scene, RunSetting
   return from ? resume(scene, std::move(*from), std::move(settings)) : run(scene, std::move(settings));
 }
 
-// Opens the page of the run, and makes it first unless the scene asked for it. One left from an earlier run is
+// Opens the page of the run, which it makes first unless the scene already did. One left from an earlier run is
 // replaced.
 void view_results(const CarryOptions& options, const Scene& scene, const std::filesystem::path& folder) {
   if (!scene.output.view) {

@@ -1,4 +1,4 @@
-// A run as the command line shows it: progress and warnings on standard error, what it came to on standard output.
+// A run on the command line: progress and warnings on standard error, the results on standard output.
 #pragma once
 
 #include <memory>
@@ -10,14 +10,14 @@
 
 namespace carom {
 
-// Throws InputError where --view asks for what the scene does not write.
+// Throws InputError if --view needs files that the scene does not write.
 void check_view(const CarryOptions& options, const Scene& scene);
 
-// What the options say of a run, but for its engine and its folder.
+// The settings of a run from the options, except for its engine and its folder.
 RunSettings settings_of(const CarryOptions& options);
 
-// Runs the scene, or goes on from a checkpoint, and reports. setup: ends when the disks are there; may be null. Returns
-// the exit status: 0, 4 if stopped early, or 1 if a picture could not be made. Throws as run() does.
+// Runs the scene, or continues from a checkpoint, and reports. setup: ends when the disks have been made; may be null.
+// Returns the exit status: 0, 4 if stopped early, or 1 if a picture could not be made. Throws as run() does.
 int run_and_report(const CarryOptions& options, const Scene& scene, RunSettings settings,
                    std::optional<ResumeFrom> from, std::unique_ptr<SetupWatch> setup);
 

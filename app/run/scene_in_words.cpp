@@ -17,8 +17,8 @@ namespace carom {
 
 namespace {
 
-// " at speeds up to 2, accelerations up to 8, 0.8 times gravity's": below 1 of it, what lies on a wall that goes up and
-// down stays there.
+// " at speeds up to 2, accelerations up to 8, 0.8 times gravity's": if that factor is below 1, disks on a wall that
+// moves up and down stay on it.
 std::string motion_text(double speed, double acceleration, double gravity) {
   std::string text = fmt::format(" at speeds up to {:.3g}", speed);
   if (acceleration == 0.0) return text;
@@ -26,7 +26,7 @@ std::string motion_text(double speed, double acceleration, double gravity) {
   return gravity > 0.0 ? text + fmt::format(", {:.3g} times gravity's", acceleration / gravity) : text;
 }
 
-// Restitution at walls: one for all, or each with the name of its side.
+// The restitution at walls: one for all, or each with the name of its side.
 std::string walls_text(const Domain& box) {
   std::string text;
   bool equal = true;
@@ -46,7 +46,7 @@ std::string walls_text(const Domain& box) {
   return equal && first ? fmt::format(", {:g} at walls", *first) : text;
 }
 
-// Each side that moves, then the largest figures of all inner walls.
+// Each side that moves, then the largest speed and acceleration of all inner walls.
 std::string moving_walls_text(const Scene& scene) {
   const double gravity = scene.physics.gravity.size;
   std::string text;
@@ -91,7 +91,7 @@ std::string roughness_text(const Roughness& r) {
   return fmt::format("{:g} along surfaces{}", r.restitution, friction);
 }
 
-// Empty where disks are smooth.
+// Empty if disks are smooth.
 std::string surfaces_text(const Surfaces& surfaces) {
   if (!surfaces.are_rough()) return "";
   const std::string walls = surfaces.walls.acts() ? fmt::format(" (walls: {})", roughness_text(surfaces.walls)) : "";

@@ -1,4 +1,4 @@
-// The sides of a scene's box and its physics in words, as carom check tells them: one line each, without the newline.
+// The sides of a scene's box and its physics in words, for carom check: one line each, without the newline.
 #pragma once
 
 #include <string>

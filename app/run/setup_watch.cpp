@@ -17,11 +17,11 @@ namespace {
 constexpr std::chrono::milliseconds pause{10};
 constexpr int stopped_early = 4;
 
-// A setup that takes less is let through to the first step, where a checkpoint can be written. Seconds of processor
+// A shorter setup is not interrupted before the first step, where a checkpoint can be written. Seconds of processor
 // time and of wall time.
 constexpr double short_cpu = 1.0, short_wall = 60.0;
 
-// Nothing has been written, and the thread that makes the state cannot be asked to stop: the process ends here.
+// Nothing has been written, and the thread that makes the state cannot be asked to stop, so the process ends here.
 [[noreturn]] void stop(std::string_view what) {
   print_note(fmt::format("stopped by {} while the initial state was made; there is no checkpoint to go on from", what));
   std::_Exit(stopped_early);

@@ -7,9 +7,10 @@
 
 namespace carom {
 
-// From its construction on, a thread of its own ends the process at SIGINT, SIGTERM, SIGHUP, SIGXCPU and at the end of
-// the wall time, with one line and status 4; SIGUSR1 gets a line that there is no checkpoint yet. Signals are those of
-// stop_signals.hpp, whose catch_signals() has been called. It must be gone before anything is written.
+// From its construction on, a separate thread ends the process at SIGINT, SIGTERM, SIGHUP, SIGXCPU and at the end of
+// the wall time, with one line and status 4; for SIGUSR1 it prints that there is no checkpoint yet. Signals are those
+// of stop_signals.hpp, whose catch_signals() must have been called. The object must be destroyed before anything is
+// written.
 class SetupWatch {
  public:
   // The process began at `started` and may take max_walltime seconds.
