@@ -12,7 +12,7 @@ namespace carom {
 
 namespace {
 
-// Short against a program's own start, long against asking.
+// Short compared with a program's own start, long compared with the work of looking.
 constexpr std::chrono::milliseconds pause{5};
 
 struct Running {

@@ -1,4 +1,4 @@
-// Many programs one after the other, some at once, watched from one thread.
+// Runs many programs, a few at a time, watched from one thread.
 #pragma once
 
 #include <cstddef>
@@ -12,13 +12,13 @@ namespace carom {
 struct Programs {
   std::size_t count = 0;
   std::size_t at_once = 1;
-  std::function<std::unique_ptr<ChildProcess>(std::size_t)> start;  // the k-th; null if it could not be started
-  std::function<void(std::size_t, int)> ended;                      // the k-th, with this exit status
-  std::function<void(std::size_t)> pulse;                           // several times a second: so many have ended
+  std::function<std::unique_ptr<ChildProcess>(std::size_t)> start;  // starts the k-th program; null if that fails
+  std::function<void(std::size_t, int)> ended;  // called when the k-th program has ended, with its exit status
+  std::function<void(std::size_t)> pulse;  // called several times a second, with the number of programs that have ended
 };
 
-// Runs them all. Signals are those of stop_signals.hpp, whose catch_signals() has been called: a stop is passed on to
-// those that run, and no other is started. Returns false if that happened.
+// Runs them all. Signals are those of stop_signals.hpp, whose catch_signals() must have been called: a stop is passed
+// on to the running programs, and no other is started. Returns false if that happened.
 bool run_programs(const Programs& programs);
 
 }  // namespace carom

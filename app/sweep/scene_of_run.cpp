@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The files, as the scene names them, that gave other values to its disks than they give now.
+// The files, by their names in the scene, that gave its disks other values then than now.
 std::set<std::string> changed_files(const Scene& then, const Scene& now) {
   std::set<std::string> names;
   const auto see = [&](const std::string& file, bool same) {

@@ -1,4 +1,4 @@
-// What a run of a sweep was made from: files that its scene reads may be others now.
+// The scene from which a run of a sweep was made: files that it reads may have changed since.
 #pragma once
 
 #include <cstddef>
@@ -9,17 +9,17 @@
 
 namespace carom {
 
-// Of the text of a resolved scene, which has all that was read from files.
+// Computed from the text of a resolved scene, which contains everything that was read from files.
 std::size_t fingerprint(const std::string& scene_text);
 
-// The resolved scene of the run in this folder: of one that has come to its end, or that was stopped and left a
-// checkpoint to go on from. Empty where there is neither.
+// The resolved scene of the run in this folder, if the run has come to its end, or was stopped and left a checkpoint.
+// Otherwise empty.
 std::string scene_of_run(const std::filesystem::path& folder);
 
-// Is this the scene that has the fingerprint? Another version may have written it in other words.
+// Does this scene have the fingerprint? Another version may have written it in other words.
 bool is_of_fingerprint(const std::string& scene_text, std::size_t print);
 
-// How the scene of a run differs from the one that it would have now, for "holds another sweep: ...".
+// The difference between the scene of a run and the one that it would have now, for "holds another sweep: ...".
 std::string change_since(const std::string& scene_text, const Scene& now, const std::string& run);
 
 }  // namespace carom

@@ -62,8 +62,8 @@ void Sweep::add_axis(const SweepAxis& axis) {
   axes_.push_back(axis);
 }
 
-// What a run would begin from now. It gets the keys of the sweep by --set; the user gave them by --over, so messages
-// say that.
+// The scene with which a run would begin now. The run gets the keys of the sweep by --set, but the user gave them by
+// --over, so messages name that.
 Scene Sweep::scene_of(const SweepRun& run) const {
   try {
     return load_scene_as_told(options_.scene, {run.overrides, run.overrides.size()});
@@ -104,7 +104,7 @@ void Sweep::open_folder() {
   begin(scene_text);
 }
 
-// Goes on with the sweep in the folder, if it is this one or a part of it. Returns why it is not; empty if it is.
+// Continues the sweep in the folder, if it is this one or a part of it. Returns why it is not; empty if it is.
 Sweep::Complaint Sweep::go_on(const std::string& scene_text) {
   const std::string plan = plan_file().string();
   std::vector<SweepRun> runs = runs_;
@@ -118,7 +118,7 @@ Sweep::Complaint Sweep::go_on(const std::string& scene_text) {
   return {};
 }
 
-// The first of these runs that is not what it was.
+// The complaint about the first of these runs that has changed; empty if there is none.
 Sweep::Complaint Sweep::against_runs(const std::vector<SweepRun>& runs) const {
   for (const SweepRun& run : runs) {
     const std::string what = against(run);
@@ -127,7 +127,8 @@ Sweep::Complaint Sweep::against_runs(const std::vector<SweepRun>& runs) const {
   return {};
 }
 
-// How what there is of a run differs from what the sweep would run; empty where it does not, or there is nothing.
+// The difference between an existing run and the one that the sweep would run; empty if they agree, or if there is
+// none.
 std::string Sweep::against(const SweepRun& run) const {
   try {
     const std::string then = scene_of_run(folder_of(run));
@@ -137,7 +138,7 @@ std::string Sweep::against(const SweepRun& run) const {
   }
 }
 
-// Makes the folder what it is before any run.
+// Prepares the folder before any run.
 void Sweep::begin(const std::string& scene_text) {
   const auto make = [](const fs::path& folder) {
     std::error_code error;
@@ -146,7 +147,7 @@ void Sweep::begin(const std::string& scene_text) {
   };
   make(folder_);
   if (!lock_) lock_.emplace(folder_);
-  // Whole or not at all: a folder with runs and a plan cut short would be another sweep's.
+  // Written completely or not at all: with an incomplete plan a folder with runs would be another sweep's.
   replace_file(plan_file().string(), sweep_identity(scene_text, runs_));
   make(folder_ / "runs");
 }
@@ -160,12 +161,12 @@ std::size_t Sweep::finished() const {
       std::count_if(runs_.begin(), runs_.end(), [&](const SweepRun& r) { return finished(r); }));
 }
 
-// Was it stopped, and left a checkpoint to go on from?
+// Was the run stopped, leaving a checkpoint from which it can continue?
 bool Sweep::resumable(const SweepRun& run) const {
   return !finished(run) && !scene_of_run(folder_of(run)).empty();
 }
 
-// The scene may be edited, and files that it reads be made anew, while the sweep goes on.
+// The scene may be edited, and files that it reads may be written anew, while the sweep runs.
 bool Sweep::is_as_planned(const SweepRun& run) const {
   try {
     return resumable(run) || fingerprint(resolved_toml(scene_of(run))) == run.scene;
@@ -182,7 +183,7 @@ std::string Sweep::log_of(const SweepRun& run) const {
   return fs::absolute(folder_ / "runs" / (run.name + ".log")).string();
 }
 
-// threads: 0 leaves them open.
+// threads: 0 leaves the number to the run.
 std::vector<std::string> Sweep::command_of(const SweepRun& run, int threads, const std::string& program) const {
   const std::string folder = fs::absolute(folder_of(run)).string();
   const bool resumes = resumable(run);
@@ -206,7 +207,7 @@ std::string Sweep::shell_line(const SweepRun& run, bool over_mpi) const {
   return line;
 }
 
-// Throws RunError where the run cannot be started, or would not be that of the sweep.
+// Throws RunError if the run cannot be started, or would not be that of the sweep.
 std::unique_ptr<ChildProcess> Sweep::start(const SweepRun& run, int threads) const {
   if (!is_as_planned(run)) throw RunError(changed);
   auto process = std::make_unique<ChildProcess>(command_of(run, threads, own_path()), fs::current_path().string(),
@@ -223,17 +224,17 @@ std::string Sweep::last_words(const SweepRun& run, int status) const {
   return words.empty() ? fmt::format("ended with status {}", status) : words;
 }
 
-// Removes what is not to be kept of a run that has ended. Returns why it failed; empty where it did not, and where the
-// sweep stopped it.
+// Removes what is not to be kept of a run that has ended. Returns why it failed; empty if it did not, or if the sweep
+// stopped it.
 std::string Sweep::close(const SweepRun& run, int status) const {
   constexpr int stopped_early = 4;
-  const bool stopped = status == stopped_early || status == 128 + SIGTERM;  // the latter where it had not quite begun
+  const bool stopped = status == stopped_early || status == 128 + SIGTERM;  // the latter if it had not quite begun
   if (stopped) return stop_wished() ? "" : "was stopped from outside; the same command goes on with it";
   if (status != 0) return last_words(run, status);
   fs::remove(log_of(run));
   if (against(run).empty()) return "";
   std::error_code ignored;
-  fs::remove_all(folder_of(run), ignored);  // it is none of this sweep
+  fs::remove_all(folder_of(run), ignored);  // it does not belong to this sweep
   return changed;
 }
 
@@ -241,7 +242,7 @@ SweepCount Sweep::run_all() const {
   std::vector<const SweepRun*> rest;
   for (const SweepRun& run : runs_) {
     if (!finished(run)) rest.push_back(&run);
-    if (finished(run)) fs::remove(log_of(run));  // left where the sweep was killed, and its run came to its end
+    if (finished(run)) fs::remove(log_of(run));  // left if the sweep was killed, and its run came to its end
   }
   const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const int jobs = options_.jobs.value_or(std::max(1, cores / options_.ranks));

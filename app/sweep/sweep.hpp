@@ -1,4 +1,4 @@
-// A sweep: the runs of a plan in one folder, which of them are done, and what starts the others.
+// A sweep: the runs of a plan in one folder, which of them are done, and the start of the others.
 #pragma once
 
 #include <cstddef>
@@ -25,33 +25,33 @@ struct SweepCount {
 
 struct SweepTableCount {
   std::size_t warned = 0;          // rows of runs with warnings
-  std::set<std::string> versions;  // of Carom, that made them
+  std::set<std::string> versions;  // of Carom, by which they were made
 };
 
 class Sweep {
  public:
-  // Reads the scene of every run, so that a bad key or value shows before anything runs; throws InputError. The options
-  // outlive the sweep.
+  // Reads the scene of every run, so that a wrong key or value is found before anything runs; throws InputError. The
+  // options outlive the sweep.
   explicit Sweep(const SweepOptions& options);
 
-  // Makes the folder, or makes sure that it holds this very sweep, or one that this one goes on with more values or
-  // seeds. Throws InputError where it holds anything else.
+  // Makes the folder, or checks that it holds this sweep, or one that this one extends by more values or seeds. Throws
+  // InputError if it holds anything else.
   void open_folder();
 
   bool finished(const SweepRun& run) const;
-  std::size_t finished() const;  // runs that have come to their end
+  std::size_t finished() const;  // number of runs that have come to their end
   const std::vector<SweepRun>& runs() const { return runs_; }
   const std::filesystem::path& folder() const { return folder_; }
   int ranks() const { return options_.ranks; }
 
-  // The command that makes a run, afresh or on from where it was stopped, quoted for a shell. over_mpi: that of each
+  // The command that makes a run, or continues it if it was stopped, quoted for a shell. over_mpi: the command of each
   // process that mpirun starts.
   std::string shell_line(const SweepRun& run, bool over_mpi) const;
 
-  // Runs what is not there yet, several at once. Failures are reported as they occur.
+  // Runs what is missing, several runs at a time. Failures are reported as they occur.
   SweepCount run_all() const;
 
-  // sweep.csv: one row a run that has come to its end.
+  // Writes sweep.csv: one row for each run that has come to its end.
   SweepTableCount write_table() const;
 
  private:

@@ -29,12 +29,12 @@ std::vector<std::string> lines_of(const std::string& text) {
   }
 }
 
-// At the commas or colons that are not within brackets, braces or quotes, as values of a scene have them.
+// Splits text at the commas or colons that are not within the brackets, braces or quotes of a scene's values.
 std::vector<std::string> split_values(const std::string& text, char at) {
   std::vector<std::string> values(1);
   int depth = 0;
   char quote = 0;
-  bool escaped = false;  // by a backslash before it: a quote that ends no string
+  bool escaped = false;  // the character before it was a backslash, so a quote does not end the string
   for (const char c : text) {
     if (c == at && depth == 0 && quote == 0) {
       values.emplace_back();
@@ -83,7 +83,8 @@ std::vector<std::string> range_values(const std::string& text, const std::vector
   }
   std::vector<std::string> values;
   for (int k = 0; k < count; ++k) {
-    // Both ends exactly, and the same text however the range is run through: 0.5, 0.55, not 0.55000000000000004.
+    // Both ends are exact, and a value has the same text in whatever way the range is divided: 0.5, 0.55, not
+    // 0.55000000000000004.
     const double share = count == 1 ? 0.0 : static_cast<double>(k) / (count - 1);
     const double value = k + 1 == count ? to : from + (to - from) * share;
     values.push_back(fmt::format("{}", number_of(fmt::format("{:.15g}", value)).value_or(value)));
@@ -91,10 +92,10 @@ std::vector<std::string> range_values(const std::string& text, const std::vector
   return values;
 }
 
-// Every seed fits into 64 bits, and no list is made of more runs than a machine could do.
+// Checks that every seed fits into 64 bits, and that there are not more runs than a machine could do.
 void check_number_of_runs(const std::vector<SweepAxis>& axes, std::uint64_t seed, int seeds) {
   constexpr double most_runs = 1e6;
-  const std::uint64_t beyond = std::numeric_limits<std::uint64_t>::max() - seed;  // seeds after the first
+  const std::uint64_t beyond = std::numeric_limits<std::uint64_t>::max() - seed;  // number of seeds after the first
   if (static_cast<std::uint64_t>(seeds) - 1 > beyond) {
     fail_input("--seeds", fmt::format("{} seeds from {} on go beyond 2^64 - 1", seeds, seed),
                fmt::format("expected at most {}, or a smaller seed of the scene", beyond + 1));
@@ -104,7 +105,7 @@ void check_number_of_runs(const std::vector<SweepAxis>& axes, std::uint64_t seed
   if (runs > most_runs) fail_input("sweep", fmt::format("{:g} runs are too many", runs), "expected at most 1000000");
 }
 
-// 1.0 and 1 are the same.
+// Makes 1.0 and 1 the same.
 std::string plain(const std::string& value) {
   const std::optional<double> number = number_of(value);
   return number && value.find_first_of(".e") != std::string::npos ? fmt::format("{}", *number) : value;
@@ -117,7 +118,7 @@ std::string changes_of(const SweepRun& run) {
   return text;
 }
 
-// Runs are told apart by what they change: two that change the same would take each other's names.
+// Runs are distinguished by what they change: two with the same changes would take each other's names.
 void check_values(const std::string& text, const std::vector<std::string>& values) {
   std::set<std::string> seen;
   for (const std::string& value : values) {
@@ -181,7 +182,7 @@ std::string sweep_identity(const std::string& scene_text, const std::vector<Swee
 std::string take_names(const std::string& identity, const std::string& scene_text, std::vector<SweepRun>& runs) {
   const std::size_t end = identity.find("\n\n");
   if (end == std::string::npos || identity.substr(end + 2) != scene_text) return "the scene has changed since";
-  std::map<std::string, std::string> names;  // of the runs there, by what they change
+  std::map<std::string, std::string> names;  // of the existing runs, by what they change
   std::size_t last = 0;
   for (const std::string& line : lines_of(identity.substr(0, end))) {
     const std::size_t name_end = std::min(line.find(' '), line.size());

@@ -1,4 +1,4 @@
-// What a sweep runs: every combination of values and seeds.
+// The runs of a sweep: every combination of values and seeds.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace carom {
 
-// One key of the scene and the values that it takes, as TOML writes them.
+// One key of the scene and its values, as written in TOML.
 struct SweepAxis {
   std::string key;
   std::vector<std::string> values;
@@ -20,20 +20,20 @@ SweepAxis parse_sweep_axis(const std::string& text);
 
 struct SweepRun {
   std::string name;                 // of its folder: 0001, 0002, ...
-  std::vector<Override> overrides;  // those of the command line, then one an axis, then the seed
+  std::vector<Override> overrides;  // those of the command line, then one for each axis, then the seed
   std::size_t scene = 0;            // fingerprint of its scene (scene_of_run.hpp)
 };
 
-// The last axis turns fastest, seeds faster still. Seeds run on from the scene's own. Throws InputError for more than a
-// million runs, and for seeds beyond 64 bits.
+// Seeds vary fastest, then the last axis. The first seed is the scene's own. Throws InputError for more than a million
+// runs, and for seeds beyond 64 bits.
 std::vector<SweepRun> sweep_runs(const SceneChanges& changes, const std::vector<SweepAxis>& axes, std::uint64_t seed,
                                  int seeds);
 
 // Everything that distinguishes one sweep from another, as text: the runs with what they change, and the scene.
 std::string sweep_identity(const std::string& scene_text, const std::vector<SweepRun>& runs);
 
-// Enlarges a sweep: the runs that the one of this identity has keep its names, so that nothing of it is run again; the
-// others are numbered on from there. Returns what does not go together, empty if all does.
+// Extends a sweep: the runs that the sweep with this identity already has keep its names, so that none is run again;
+// the others are numbered on from there. Returns what does not match, empty if all does.
 std::string take_names(const std::string& identity, const std::string& scene_text, std::vector<SweepRun>& runs);
 
 }  // namespace carom

@@ -11,13 +11,13 @@
 
 namespace carom {
 
-// How many runs have ended and how long the rest will take: kept up to date as that of a run (progress.hpp).
+// The number of runs that have ended and the time for the rest: updated as the line of a run (progress.hpp).
 class SweepProgress {
  public:
-  // all: runs that are left when it begins.
+  // all: number of runs left at the beginning.
   explicit SweepProgress(std::size_t all) : all_(all), start_(line_.seconds()) {}
 
-  // Brings the line up to date, if it is time. ended: those that failed as well.
+  // Updates the line, if it is time. ended: including those that failed.
   void update(std::size_t ended, std::size_t failed) {
     if (!line_.due()) return;
     std::string text = fmt::format("{} of {} runs done", ended - failed, all_);
@@ -29,7 +29,7 @@ class SweepProgress {
     line_.show(text);
   }
 
-  // Takes the line away, so that something else can be written.
+  // Removes the line, so that something else can be written.
   void clear() { line_.clear(); }
 
  private:

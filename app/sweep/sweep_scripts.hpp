@@ -1,5 +1,5 @@
-// The runs that are left of a sweep, for another program to start. Afterwards `carom sweep` with the same arguments has
-// only the table to write.
+// Scripts with the remaining runs of a sweep, to be started by another program. Afterwards `carom sweep` with the same
+// arguments only has to write the table.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace carom {
 
-// For sh: GNU parallel, a line a run.
+// For sh: GNU parallel, with a line for each run.
 std::string parallel_script(const Sweep& sweep);
 
-// For sbatch: an array of tasks, one a run.
+// For sbatch: an array of tasks, one for each run.
 std::string slurm_script(const Sweep& sweep);
 
 }  // namespace carom

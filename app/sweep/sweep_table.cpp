@@ -11,18 +11,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What a row of sweep.csv takes from each run's summary, after the keys of the sweep and the seed. Of a list, as the
-// warnings are, it takes the number of entries.
+// The keys of each run's summary in a row of sweep.csv, after the keys of the sweep and the seed. For a list, such as
+// the warnings, the column is the number of entries.
 constexpr std::array<const char*, 18> table_keys{
     "particles",    "steps",          "time",        "collisions",   "wall_collisions", "energy_initial",
     "energy_final", "momentum_drift", "max_overlap", "wall_overlap", "pressure",        "collision_rate",
     "removed",      "emitted",        "waiting",     "warnings",     "step_s",          "state_hash"};
-// What only some scenes have; of sides, sinks and an analysis an object.
+// Keys that only some scenes have; those of sides, sinks and an analysis are objects.
 constexpr std::array<const char*, 7> special_keys{"removed_by", "heat",       "thermostat_heat", "work",
                                                   "wall_work",  "shear_work", "analysis"};
 
 struct SpecialColumn {
-  std::string key, part;  // part: a side, a sink, what an analysis measured; empty where the summary has a number
+  std::string key, part;  // part: a side, a sink or a measured quantity; empty if the summary has a number
   bool operator==(const SpecialColumn&) const = default;
 };
 
@@ -32,7 +32,7 @@ std::string cell_of(const Json& value) {
   return value.is_null() ? "" : value.dump();
 }
 
-// In quotes, and quotes doubled, where it would be read as several (RFC 4180).
+// Quotes a value, with quotes in it doubled, if it would otherwise be read as several (RFC 4180).
 std::string csv_cell(const std::string& value) {
   if (value.find_first_of(",\"") == std::string::npos) return value;
   std::string cell = "\"";
@@ -40,7 +40,7 @@ std::string csv_cell(const std::string& value) {
   return cell + '"';
 }
 
-// Those that any run has.
+// The special columns that any of the runs has.
 std::vector<SpecialColumn> special_columns(const std::vector<SweepRow>& rows) {
   std::vector<SpecialColumn> columns;
   const auto add = [&](const SpecialColumn& column) {

@@ -1,4 +1,4 @@
-// sweep.csv: a row a run.
+// sweep.csv: a row for each run.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +16,8 @@ struct SweepRow {
   nlohmann::ordered_json summary;
 };
 
-// A line of names: the run, the keys of the sweep, the seed, and what each row takes from a summary; then a line a run.
-// Heat, work and what each sink took have columns where a run has them, one a side or sink: heat_left.
+// A line of names: the run, the keys of the sweep, the seed, and the columns from the summaries; then a line for each
+// run. Heat, work and the disks taken by sinks have columns if a run has them, one for each side or sink: heat_left.
 std::string sweep_table(const std::vector<SweepAxis>& axes, const std::vector<SweepRow>& rows);
 
 }  // namespace carom
