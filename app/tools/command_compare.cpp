@@ -30,7 +30,7 @@ constexpr std::array<const char*, 17> compared_keys{
     "collisions",   "wall_collisions", "energy_initial", "energy_final", "momentum_drift", "max_overlap",
     "wall_overlap", "pressure",        "collision_rate", "removed",      "emitted"};
 
-// Likewise, but an earlier version may not have written them, and of some scenes there are none.
+// More such results, which an earlier version may not have written, or which only some scenes have.
 constexpr std::array<const char*, 15> compared_where_both_have{"heat",
                                                                "thermostat_heat",
                                                                "work",
@@ -47,14 +47,14 @@ constexpr std::array<const char*, 15> compared_where_both_have{"heat",
                                                                "worst_wall_overlap_time",
                                                                "worst_wall_overlap_ids"};
 
-// The files to compare of one output: a folder's, or a single trajectory.
+// The files of one output that are compared: those of a folder, or a single trajectory.
 struct Output {
   std::string name;
   fs::path trajectory;  // empty if there is none
   Json summary;         // null if there is none
 };
 
-// Of a run's folder; null where it has none.
+// From a run's folder; null if it has none.
 Json summary_in(const std::string& name) {
   std::ifstream file(fs::path(name) / "summary.json");
   if (!file) return nullptr;
@@ -80,7 +80,7 @@ Output open_output(const std::string& name) {
   return output;
 }
 
-// Keys of the summaries with different values; empty unless both have one.
+// The keys with different values in the summaries; empty unless both outputs have one.
 std::vector<std::string> different_keys(const Json& a, const Json& b) {
   std::vector<std::string> keys;
   if (a.is_null() || b.is_null()) return keys;
@@ -110,7 +110,7 @@ std::string text_of(const Difference& d) {
   return fmt::format("{}, disk {}, {}: {} against {}", place, d.id, d.quantity, d.a, d.b);
 }
 
-// The largest difference of each quantity, those within the tolerance too.
+// The largest difference of each quantity, also within the tolerance.
 std::string largest_text(const TrajectoryDifference& d) {
   std::string text;
   for (const auto& largest : d.largest) {
@@ -121,7 +121,8 @@ std::string largest_text(const TrajectoryDifference& d) {
   return text;
 }
 
-// Is the first difference of times more than rounding of them? Then what follows says nothing of the paths.
+// Is the first difference one of times that is larger than rounding? Then the differences that follow are not those of
+// the paths.
 bool are_of_other_times(const TrajectoryDifference& d) {
   const Difference& first = *d.first;
   return std::string_view(first.quantity) == "time" && std::max(d.frames_a, d.frames_b) > 1 &&
@@ -164,7 +165,7 @@ Json json_of(const Difference& d) {
 
 struct Comparison {
   bool same;
-  std::vector<std::string> keys;  // of the summaries, that differ
+  std::vector<std::string> keys;  // of the summaries, with different values
   std::optional<CompareRule> rule;
   std::optional<TrajectoryDifference> frames;
 };
@@ -177,7 +178,7 @@ Json largest_json(const TrajectoryDifference& d) {
   return j;
 }
 
-// A new key is a row here.
+// For a new key, add a row here.
 const JsonKey<Comparison> compare_keys[] = {
     {"same", "", "true or false", [](const Comparison& c) -> Json { return c.same; }},
     {"different_keys", "", "keys of the two summaries that differ", [](const Comparison& c) -> Json { return c.keys; }},
@@ -231,7 +232,7 @@ int compare(const CompareOptions& options) {
 
 }  // namespace
 
-// A file that cannot be read, or an answer that cannot be printed, is no difference, which 1 stands for.
+// A file that cannot be read, or an answer that cannot be printed, has another status than a difference, which has 1.
 int command_compare(const CompareOptions& options) {
   constexpr int not_compared = 2;
   try {

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What all frames hold, and how many they are.
+// What all frames have in common, and their number.
 struct Survey {
   SeenValues seen;
   Count frames = 0;
@@ -44,7 +44,7 @@ Survey survey_of(const Recording& recording) {
   return survey;
 }
 
-// The look of the run's movie, changed by the options.
+// The look of the run's movie, with the changes of the options.
 PictureLook look_of(const RenderOptions& options, const std::optional<Scene>& scene) {
   PictureLook look = scene ? scene->output.look : PictureLook{};
   if (options.colour && *options.colour != look.colour) {
@@ -64,7 +64,7 @@ PictureLook look_of(const RenderOptions& options, const std::optional<Scene>& sc
   return look;
 }
 
-// The colours reach over what all frames hold, so that every picture and movie of a run has the same.
+// The colour scale covers the values of all frames, so that every picture and movie of a run has the same scale.
 FrameStyle style_of(const Recording& recording, const RenderOptions& options, const Survey& survey) {
   const WarningSink warn = [&](std::string_view text) {
     if (!options.quiet) print_warning(text);
@@ -75,8 +75,8 @@ FrameStyle style_of(const Recording& recording, const RenderOptions& options, co
   return frame_style(recording.trajectory.string(), survey.box, look, survey.seen);
 }
 
-// A folder beside the file it is for, in one that another carom render of this file cannot have at the same time;
-// removed with whatever is left in it.
+// A folder beside the file for which it is used, inside one that only one carom render of this file can have at a time;
+// removed with everything that is left in it.
 struct WorkFolder {
   explicit WorkFolder(const fs::path& file) : held(file.string() + ".unfinished"), path(held / "made") {
     std::error_code error;
@@ -84,7 +84,7 @@ struct WorkFolder {
     if (!error && !lock.take(held)) {
       fail_input(file.string(), "another carom render is making it now", "expected another file (-o)");
     }
-    if (!error) fs::remove_all(path, error);  // of one that was killed
+    if (!error) fs::remove_all(path, error);  // left by one that was killed
     if (!error) fs::create_directory(path, error);
     if (error) throw RunError(fmt::format("cannot make the folder {}: {}", path.string(), error.message()));
   }
@@ -98,17 +98,17 @@ struct WorkFolder {
   FolderLock lock;  // on held
 };
 
-// What a file's extension asks for.
+// The form of the output, from a file's extension.
 struct Target {
   fs::path file;
   std::optional<MovieFormat> movie;  // absent: a picture
   bool svg = false;
-  bool single_frames = false;  // of a movie where there is no ffmpeg: a folder of pictures beside where it would be
+  bool single_frames = false;  // of a movie if there is no ffmpeg: a folder of pictures beside its place
 
   fs::path made() const { return single_frames ? file.parent_path() / "frames" : file; }
 };
 
-// As check_free, of the folder of a movie's frames.
+// As check_free, for the folder of a movie's frames.
 void check_frames_free(const fs::path& frames, bool force) {
   if (!fs::exists(frames)) return;
   if (!holds_frames_only(frames)) {
@@ -161,8 +161,8 @@ void render_picture(const Recording& recording, const RenderOptions& options, co
   rename_file(made, target.file);
 }
 
-// The new frames take the place of earlier ones at once, so that whatever happens one or the other are there. Where the
-// file system cannot exchange two folders, the earlier ones step aside, and come back if the new ones find no place.
+// The new frames replace earlier ones in one step, so that at any moment one or the other are there. If the file system
+// cannot exchange two folders, the earlier ones are moved aside, and back if the new ones cannot be moved.
 void put_frames(const fs::path& made, const fs::path& place, const fs::path& aside) {
   if (!fs::exists(place)) return rename_file(made, place);
   if (renameat2(AT_FDCWD, made.c_str(), AT_FDCWD, place.c_str(), RENAME_EXCHANGE) == 0) return;
@@ -177,14 +177,14 @@ void put_frames(const fs::path& made, const fs::path& place, const fs::path& asi
 }
 
 void render_movie(const Recording& recording, const RenderOptions& options, const Target& target) {
-  constexpr double fastest_gif = 50.0;  // delays are whole hundredths of a second, and viewers make two of one
+  constexpr double fastest_gif = 50.0;  // delays are whole hundredths of a second, and viewers treat one as two
   const Survey survey = survey_of(recording);
   const FrameStyle style = style_of(recording, options, survey);
   if (target.movie == MovieFormat::gif && style.look.fps > fastest_gif) {
     fail_input("--fps", fmt::format("is {}", style.look.fps),
                fmt::format("expected at most {} for a GIF", fastest_gif));
   }
-  const HeldSignals held;  // until the work folder is gone
+  const HeldSignals held;  // until the work folder is removed
   const WorkFolder work(target.file);
   MovieWriter movie(work.path.string(), style, *target.movie);
   if (target.single_frames && !options.quiet) {

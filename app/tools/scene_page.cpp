@@ -66,7 +66,7 @@ std::string names_text(const SceneKey& key) {
   return text;
 }
 
-// What the value may be; NAMES in it stands for the row's names.
+// The allowed values; NAMES in the text stands for the row's names.
 std::string allowed_text(const SceneKey& key) {
   constexpr std::string_view place = "NAMES";
   std::string text(key.allowed);
@@ -75,7 +75,7 @@ std::string allowed_text(const SceneKey& key) {
   return at == std::string::npos ? text : text.replace(at, place.size(), names_text(key));
 }
 
-// A default as in TOML is set as code, words are not.
+// A default is set as code if it is TOML, but not if it is words.
 std::string initial_text(std::string_view initial) {
   constexpr std::string_view code = "0123456789\"[";
   if (initial.empty()) return "";
