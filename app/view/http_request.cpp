@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::string_view line_end = "\r\n";
 
-// The text up to a mark, which goes with it; all of it where there is no mark.
+// Takes the text up to a mark, and the mark, off the text; all of it if there is no mark.
 std::string_view take_until(std::string_view& text, std::string_view mark) {
   const std::size_t at = text.find(mark);
   const std::string_view taken = text.substr(0, at);

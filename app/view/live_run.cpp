@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr std::chrono::milliseconds between_looks{50};
 
-// The whole number at the beginning, and the rest behind it; nothing where there is none.
+// Takes the whole number at the beginning off the text; nothing if there is none.
 std::optional<std::size_t> take_number(std::string_view& text) {
   std::size_t number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -51,7 +51,7 @@ LiveRun::LiveRun(const fs::path& folder, const ViewSettings& settings) : folder_
       try {
         reader_ = open_frames(recording_);
       } catch (const InputError&) {
-        if (last_look) throw;  // else its first bytes are still to come
+        if (last_look) throw;  // otherwise its first bytes may still come
       }
     }
     if (reader_ && reader_->read(frame)) break;
@@ -63,7 +63,7 @@ LiveRun::LiveRun(const fs::path& folder, const ViewSettings& settings) : folder_
 
 void LiveRun::begin(const TrajectoryFrame& frame) {
   story_ = story_of(recording_, settings_);
-  settings_.warn = [](std::string_view) {};  // once is enough
+  settings_.warn = [](std::string_view) {};  // only one warning is needed
   if (!(story_.box.width > 0.0)) story_.box = frame.box;
   const double smallest = frame.disks.empty() ? story_.box.width : smallest_radius(frame.disks);
   encoder_.emplace(ViewAxes{view_axis(story_.box.width, story_.box.periodic_x(), smallest),
@@ -77,7 +77,7 @@ void LiveRun::begin(const TrajectoryFrame& frame) {
 }
 
 // The frames never take more than their room: each time that half of what is left of it is full, every second frame is
-// left out, and all where it is full.
+// left out, and all later frames once it is full.
 void LiveRun::add(const TrajectoryFrame& frame) {
   const std::size_t room = settings_.most_bytes / 20 * 19;
   if (limit_ >= room) return;
@@ -89,8 +89,8 @@ void LiveRun::add(const TrajectoryFrame& frame) {
   limit_ += (room - limit_ + 1) / 2;
 }
 
-// Has the run brought its trajectory up into the folder? Until it does, an earlier run may have left another there,
-// with a summary.
+// Has the run moved its trajectory up into the folder? Until then the folder may contain that of an earlier run, with a
+// summary.
 bool LiveRun::moved_up() const {
   return identity_of(trajectory_in(folder_)) == std::optional(file_);
 }

@@ -1,4 +1,4 @@
-// A run that goes on, as the page that follows it asks for it.
+// A run that is going on, for the page that follows it.
 #pragma once
 
 #include <cstddef>
@@ -16,18 +16,18 @@ namespace carom {
 
 class LiveRun {
  public:
-  // folder: of a run that is going on; waits for its first frame. Throws InputError where no run is going on, or where
-  // it ends without a frame.
+  // folder: of a run that is going on; waits for its first frame. Throws InputError if no run is going on, or if it
+  // ends without a frame.
   LiveRun(const std::filesystem::path& folder, const ViewSettings& settings);
 
-  // Packs the frames that came, for about so many seconds at most.
+  // Packs the frames that have come, for at most about this number of seconds.
   void read(double seconds);
 
-  // Whether the run has ended, and all its frames are here.
+  // Has the run ended, and have all its frames been read?
   bool ended() const { return ended_; }
   const std::string& state() const { return state_; }  // of the run, a sentence
 
-  // "" is the page, "blockN" a block of its frames, and "news/BLOCKS/DISKS" what it does not have yet.
+  // "" is the page, "blockN" a block of its frames, and "news/BLOCKS/DISKS" what a page with these numbers lacks.
   HttpAnswer answer(std::string_view path) const;
 
  private:
@@ -39,13 +39,13 @@ class LiveRun {
   std::filesystem::path folder_;
   ViewSettings settings_;
   Recording recording_;
-  FileIdentity file_;  // of the trajectory, whatever folder it lies in
+  FileIdentity file_;  // of the trajectory, whatever folder it is in
   std::unique_ptr<TrajectoryReader> reader_;
   ViewStory story_;
   std::optional<ViewEncoder> encoder_;
-  std::size_t frames_ = 0, stride_ = 1;  // read; one of `stride` is shown
-  std::size_t limit_ = 0;                // bytes of frames at which it doubles
-  double thinned_from_ = 0.0;            // simulated time
+  std::size_t frames_ = 0, stride_ = 1;  // frames read; one of `stride` is shown
+  std::size_t limit_ = 0;                // bytes of frames at which the stride is doubled
+  double thinned_from_ = 0.0;            // simulated time from which frames are left out
   std::uintmax_t series_bytes_ = 0;
   bool ended_ = false;
   std::string state_;

@@ -11,9 +11,9 @@ namespace carom {
 
 namespace {
 
-constexpr double reading_s = 0.25;  // before requests are looked at again
-constexpr int serving_ms = 250;     // before the run is looked at again
-constexpr double farewell_s = 2.0;  // after the end: a page that has not asked for so long has all, or has gone
+constexpr double reading_s = 0.25;  // until requests are served again
+constexpr int serving_ms = 250;     // until the run is read again
+constexpr double farewell_s = 2.0;  // after the end, without a request: pages have everything, or were closed
 
 }  // namespace
 

@@ -37,7 +37,7 @@ std::string random_token() {
   return token;
 }
 
-// Takes as long for any two texts of the same length, so that time tells nothing of a token.
+// Takes the same time for any two texts of the same length, so that the time reveals nothing about a token.
 bool same_token(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
   unsigned difference = 0;
@@ -47,7 +47,7 @@ bool same_token(std::string_view a, std::string_view b) {
   return difference == 0;
 }
 
-// Other pages may neither embed nor read what is answered, and nothing of it is kept.
+// Other pages may neither embed nor read the answer, and it is not stored anywhere.
 std::string text_of(const HttpAnswer& answer) {
   return fmt::format(
       "HTTP/1.1 {} {}\r\nContent-Type: {}\r\nContent-Length: {}\r\nConnection: close\r\nCache-Control: no-store\r\n"
@@ -118,7 +118,7 @@ void LoopbackServer::read_from(Client& client) {
   std::array<char, 4096> bytes{};
   const ssize_t count = ::recv(client.socket, bytes.data(), bytes.size(), 0);
   if (count < 0 && will_come_again()) return;
-  if (count <= 0) {  // it went away before it had asked
+  if (count <= 0) {  // the client went away before its request
     ::close(std::exchange(client.socket, -1));
     return;
   }
@@ -136,7 +136,7 @@ void LoopbackServer::write_to(Client& client) const {
     const ssize_t count =
         ::send(client.socket, client.answer.data() + client.sent, client.answer.size() - client.sent, MSG_NOSIGNAL);
     if (count < 0 && will_come_again()) return;
-    if (count <= 0) break;  // it went away
+    if (count <= 0) break;  // the client went away
     client.sent += static_cast<std::size_t>(count);
   }
   ::shutdown(client.socket, SHUT_WR);

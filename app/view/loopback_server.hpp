@@ -1,4 +1,4 @@
-// A server for browsers on this computer alone, and of these for those that have its link.
+// A server only for browsers on this computer, and of these only for those that have its link.
 #pragma once
 
 #include <cstddef>
@@ -17,16 +17,17 @@ struct HttpAnswer {
   std::string body;
 };
 
-// Listens on 127.0.0.1 at a port that the system chooses. Everything it answers lies behind a token of 128 random bits;
-// what names another host (a page elsewhere whose name was made to lead here), another token or another method than GET
-// gets an answer without content. One request a connection, of at most longest_request bytes; a connection has ten
-// seconds to send it, and the system's buffer to take what it can each time: a slow one holds up no other.
+// Listens on 127.0.0.1 at a port that the system chooses. All its answers are behind a token of 128 random bits; a
+// request that names another host (from a page elsewhere whose name was made to lead here), another token or another
+// method than GET gets an answer without content. One request a connection, of at most longest_request bytes; a
+// connection has ten seconds to send it. Each time, only as much is sent as the system's buffer takes, so a slow
+// connection does not delay others.
 class LoopbackServer {
  public:
-  // path: behind the token, such as "" or "block3".
+  // path: the part behind the token, such as "" or "block3".
   using Answer = std::function<HttpAnswer(std::string_view path)>;
 
-  // Throws RunError where the system refuses a socket.
+  // Throws RunError if the system refuses a socket.
   explicit LoopbackServer(Answer answer);
   LoopbackServer(const LoopbackServer&) = delete;
   LoopbackServer& operator=(const LoopbackServer&) = delete;
@@ -34,10 +35,10 @@ class LoopbackServer {
 
   const std::string& link() const { return link_; }  // http://127.0.0.1:PORT/TOKEN/
 
-  // Waits for requests and answers them, for so many milliseconds.
+  // Waits for requests and answers them, for this number of milliseconds.
   void serve(int milliseconds);
 
-  // Seconds since a request with the token came, or since the beginning; 0 while one is being answered.
+  // Seconds since the last request with the token, or since the beginning; 0 while one is being answered.
   double quiet_seconds() const;
 
  private:

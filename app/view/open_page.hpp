@@ -1,4 +1,4 @@
-// The browser, for a page that is made.
+// Opens a page in the browser.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace carom {
 
-// Opens a file or an address with the desktop's own opener. Where there is none, or it fails, a warning says so, as
-// what is to be opened is there all the same; unless quiet. option: that which asks for it, "--open".
+// Opens a file or an address with the desktop's own opener. If there is none, or it fails, there is only a warning,
+// unless quiet, since the page itself is there. option: the option that opens it, such as "--open".
 void open_page(const std::string& page, std::string_view option, bool quiet);
 
 }  // namespace carom
