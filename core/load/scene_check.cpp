@@ -31,7 +31,7 @@ void check_length(std::size_t length, Count count, const std::string& where) {
   fail_input(where, fmt::format("has {} for count = {}", counted(length, "entry"), count), "expected one entry a disk");
 }
 
-// The place is that of the group that makes it too many.
+// where: of the group with which there are too many disks.
 void check_memory(const Scene& scene, Method method, Count total, const std::string& where) {
   constexpr double gigabyte = 1e9;
   const double need = least_memory(method, total, scene.physics.surfaces.are_rough());
@@ -74,7 +74,7 @@ void check_group(const DiskGroup& group, const std::string& path, const PlaceOfK
   }
 }
 
-// Walls lie within the box; across periodic sides too they end there.
+// Walls must be within the box, and end at periodic sides, too.
 void check_wall(const Scene& scene, const InnerWall& wall, const std::string& path, const PlaceOfKey& place) {
   const Domain& box = scene.box;
   for (const Vec2& p : wall.points) {
@@ -100,7 +100,7 @@ void check_source(const Source& source, const Domain& box, const std::string& pa
   }
 }
 
-// What starts at a sink as a Brownian disk crosses it within its first interval, all but surely.
+// A Brownian disk that starts at a sink crosses it within its first interval, almost certainly.
 void check_source_at_sink(const Scene& scene, const Source& source, const std::string& where) {
   const bool sink = source.side && scene.box.side(*source.side) == SideKind::sink;
   if (!sink || !(scene.physics.diffusion > 0.0) || scene.physics.accumulate) return;
@@ -121,7 +121,7 @@ void check_sides(const Domain& box, const PlaceOfKey& place) {
   }
 }
 
-// What walls that move do not go with.
+// Refuses what cannot be combined with moving walls.
 void check_moving_walls(const Scene& scene, const PlaceOfKey& place) {
   for (std::size_t k = 0; k < scene.walls.size(); ++k) {
     if (!scene.walls[k].motion.moves() || !(scene.physics.diffusion > 0.0)) continue;
@@ -168,7 +168,7 @@ void check_names(const Scene& scene, const PlaceOfKey& place) {
   }
 }
 
-// Of fixed disks, which stand already, those that grow keep clear; of others they would not.
+// Growing disks keep clear of fixed ones, which have their places already, but would not of disks placed otherwise.
 void check_growth(const Scene& scene, const PlaceOfKey& place) {
   const auto group_with = [&](bool growth) {
     std::size_t g = 0;
@@ -194,7 +194,7 @@ void check_growth(const Scene& scene, const PlaceOfKey& place) {
              "expected \"growth\" for every group, or for none");
 }
 
-// Sizes out of range: drawn, from a list or an earlier run, or derived from each other.
+// Checks for sizes out of range: drawn, from a list or an earlier run, or derived from each other.
 void check_sizes(const DiskSize& smallest, const DiskSize& largest, const std::string& path, const PlaceOfKey& place) {
   const auto check = [&](std::string_view name, Dimension dimension, double low, double high) {
     if (low > 0.0 && in_range(dimension, low) && in_range(dimension, high)) return;
@@ -207,7 +207,7 @@ void check_sizes(const DiskSize& smallest, const DiskSize& largest, const std::s
 }
 
 void check_axis(double length, bool periodic, double radius, std::string_view name, const PlaceOfKey& place) {
-  // Two disks of one diameter could touch through two images at once in a period below two diameters.
+  // In a period below two diameters, two disks of the same diameter could touch through two images at the same time.
   const double least = periodic ? 4.0 * radius : 2.0 * radius;
   if (length >= least) return;
   fail_input(place(fmt::format("box.{}", name)), fmt::format("{} is too small for a disk of radius {}", length, radius),
@@ -215,7 +215,7 @@ void check_axis(double length, bool periodic, double radius, std::string_view na
                          periodic ? "two diameters (periodic sides)" : "the diameter"));
 }
 
-// Is there a place in [low, high] for the centre of a disk of this radius? One place may touch a side in decimals.
+// Is there a place in [low, high] for the centre of a disk of this radius? A single place may touch a side in decimals.
 bool fits_along(double low, double high, double length, bool periodic, double radius) {
   if (periodic) return true;
   const double first = std::max(low, radius);
@@ -223,7 +223,7 @@ bool fits_along(double low, double high, double length, bool periodic, double ra
   return low < high ? first < last : first <= last + place_slack(radius, length);
 }
 
-// radius: the largest that the source can give. A larger disk than fits would hold up all behind it.
+// radius: the largest that the source can give. A disk too large for the region would block all that follow it.
 void check_region(const Source& source, const Domain& box, double radius, const std::string& where) {
   const Vec2 low = source.region_low;
   const Vec2 high = source.region_high;
@@ -282,7 +282,7 @@ void check_parts(const Scene& scene, const PlaceOfKey& place) {
                  fmt::format("expected at most {} in all", most_disks));
     }
     total += count;
-    const bool flies = scene.groups[g].positions.kind == PositionLaw::Kind::growth;  // which exact does, whatever runs
+    const bool flies = scene.groups[g].positions.kind == PositionLaw::Kind::growth;  // by exact, in any scene
     check_memory(scene, flies ? Method::exact : scene.run.method, total, place(path + ".count"));
     check_group(scene.groups[g], path, place);
   }
@@ -302,8 +302,8 @@ void check_parts(const Scene& scene, const PlaceOfKey& place) {
 
 namespace {
 
-// Warns where frames or samples are wanted at shorter intervals than dt. The default interval, a hundredth of the run,
-// is not warned of.
+// Warns if frames or samples are wanted at shorter intervals than dt, except for the default interval, a hundredth of
+// the run.
 void warn_of_interval(const Scene& scene, const char* key, double every, std::vector<std::string>& warnings) {
   constexpr double rounding = 1e-6;
   const bool steps = scene.run.method != Method::exact;
@@ -342,7 +342,7 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
 
 namespace {
 
-// Of all disks that a scene has and that its sources bring.
+// The sizes of all disks that a scene has or its sources bring.
 struct SizesOfAll {
   double smallest = 0.0;  // radius; 0: no disk yet
   double largest = 0.0;
@@ -352,7 +352,7 @@ struct SizesOfAll {
   void add(const DiskSize& low, const DiskSize& high, bool fixed) {
     smallest = smallest > 0.0 ? std::min(smallest, low.radius) : low.radius;
     largest = std::max(largest, high.radius);
-    if (fixed) return;  // no mass of theirs is asked for
+    if (fixed) return;  // their masses are not used
     lightest = lightest > 0.0 ? std::min(lightest, low.mass) : low.mass;
     largest_to_move = std::max(largest_to_move, high.radius);
   }

@@ -1,4 +1,4 @@
-// A contact found at the end of a drift: which disks (or disk and side), and how long ago it began.
+// A contact found at the end of a drift: its disks (or disk and side), and the time since it began.
 #pragma once
 
 #include <cstddef>
@@ -36,7 +36,7 @@ inline constexpr Side wall_side(DiskId partner) {
 struct ContactEvent {
   double ago;            // time since the contact, 0 <= ago <= the step; the step if it is older or the pair separates
   DiskId id1, id2;       // id1 < id2; id2 may be a wall
-  std::uint32_t i1, i2;  // where the disks are stored (i2 unused for a wall)
+  std::uint32_t i1, i2;  // storage indices of the disks (i2 unused for a wall)
 };
 
 // For event_order: the contact that began longest ago comes first.

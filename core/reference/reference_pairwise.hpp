@@ -7,7 +7,7 @@
 
 namespace carom {
 
-// Precondition: scene.run.dt > 0, initial is a state of scene.
+// Preconditions: scene.run.dt > 0, and `initial` is a state of the scene.
 std::unique_ptr<Engine> make_reference_pairwise(const Scene& scene, State initial, CollisionLog* log = nullptr);
 
 }  // namespace carom

@@ -20,17 +20,18 @@ namespace carom {
 
 namespace {
 
-// Random addition reaches this anywhere, narrow boxes included, and at once.
+// Random addition reaches this packing fraction in any box, even a narrow one, and quickly.
 constexpr double start_packing = 0.25;
 
 // A flight lasts until a typical disk has gone this far, in mean distances of the disks: some collisions of a fluid at
-// packing fraction 0.7. So growth has a steady pace, as theirs had. Measured best for mixtures: half of it jams
-// bidisperse disks below 0.84, twice of it reaches no higher for three times the collisions.
+// packing fraction 0.7. So growth has a steady pace, as in the work of Lubachevsky and Stillinger. Measured as the best
+// value for mixtures: with half of it bidisperse disks jam below 0.84, with twice of it they get no denser for three
+// times the collisions.
 constexpr double flight_travel = 0.02;
-// Close to jamming collisions in that time grow without bound; a flight is over after so many a disk.
+// Close to jamming the number of collisions in that time grows without bound; a flight ends after this number a disk.
 constexpr double most_collisions = 16.0;
 
-// Growth has stalled when so many steps did not make the lacking area less by a fiftieth.
+// Growth has stalled if this number of steps does not reduce the lacking area by a fiftieth.
 constexpr Count stall_steps = 100;
 constexpr double stall_share = 0.98;
 
@@ -43,7 +44,7 @@ State fly_plainly(const Scene& scene, State state, const std::function<void()>& 
   return engine->state();
 }
 
-// The scene of the flights: the box, and nothing in it that is not needed.
+// The scene of the flights: the box, without anything that they do not need.
 Scene flight_scene(const Scene& scene) {
   Scene flight;
   flight.file = scene.file;
@@ -57,7 +58,7 @@ Scene flight_scene(const Scene& scene) {
   return flight;
 }
 
-// What disks grow around: all of it solid and elastic.
+// The obstacles among which disks grow, all of them solid and elastic.
 std::vector<Obstacle> hard(std::vector<Obstacle> obstacles) {
   for (Obstacle& o : obstacles) {
     o.restitution = 1.0;
@@ -67,7 +68,7 @@ std::vector<Obstacle> hard(std::vector<Obstacle> obstacles) {
   return obstacles;
 }
 
-// The share of the box that fixed disks leave, about; a tenth where they overlap each other or stick out a lot.
+// The approximate share of the box that fixed disks leave; a tenth if they overlap each other or stick out a lot.
 double share_left(const Domain& box, const std::vector<Obstacle>& obstacles) {
   double squares = 0.0;
   for (const Obstacle& o : obstacles) squares += o.radius * o.radius;
@@ -104,8 +105,8 @@ class Growth {
     most_events_ = std::max(1.0, 0.5 * most_collisions * scene.growth.slowness * static_cast<double>(disks_));
   }
 
-  // A disk that fills the room between two walls, but for rounding, has no play there: growth comes ever nearer to that
-  // size, and never to it.
+  // A disk that fills the room between two walls, except for rounding, cannot move there: growth approaches that size,
+  // but never reaches it.
   void check_play() const {
     constexpr double rounding = 1e-12;
     const struct {
@@ -137,7 +138,7 @@ class Growth {
     d.id.resize(n);
     std::iota(d.id.begin(), d.id.end(), DiskId{0});
     put_small(place);
-    // In units of the mean distance, so that one serves as the unit of time.
+    // The speed is in units of the mean distance, so that this is also the unit of time.
     const double speed = std::sqrt(scene_.box.width * scene_.box.height / static_cast<double>(d.size()));
     for (std::size_t i = 0; i < d.size(); ++i) {
       const Vec2 v = normals(scene_.seed, Stream::growth_velocity, d.id[i], 0);
@@ -147,7 +148,7 @@ class Growth {
     state_.next_id = static_cast<DiskId>(n);
   }
 
-  // Until all disks have their final radii and none overlap.
+  // Runs until all disks have their final radii and none overlap.
   void grow() {
     double length = longest_flight_;
     double lack_then = HUGE_VAL;
@@ -175,7 +176,7 @@ class Growth {
     if (tools_.watch) tools_.watch(progress_);
   }
 
-  // Fixed disks have their places, and leave when the others have found theirs among them.
+  // Fixed disks have their places, and are removed when the others have found theirs among them.
   void put_small(const PlaceAtRandom& place) {
     Disks& d = state_.disks;
     PlacementGrid grid(box_, d);
@@ -197,7 +198,8 @@ class Growth {
     return std::numbers::pi * squares.value() / (scene_.box.width * scene_.box.height);
   }
 
-  // Returns how many events the flight had. Where disks are caged so closely that its time stands still, growth jams.
+  // Returns the number of events in the flight. Growth jams if disks are so close together that the flight's time no
+  // longer advances.
   Count fly(double length, const GrowthTally& tally) {
     state_.time = 0.0;
     state_.counters = {};
@@ -234,9 +236,9 @@ class Growth {
   Domain box_;  // with the obstacles
   std::unique_ptr<const ObstacleCells> obstacles_;
   const Disks& given_;
-  std::vector<double> target_;  // by id; of fixed disks their radius, which they have
+  std::vector<double> target_;  // by id; for fixed disks the radius that they have
   std::vector<unsigned char> fixed_;
-  std::size_t disks_ = 0;  // that grow
+  std::size_t disks_ = 0;  // number of disks that grow
   State state_;
   GrowthProgress progress_;
   double longest_flight_ = 0.0;  // mean distances of the disks, at thermal speed

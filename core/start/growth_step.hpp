@@ -1,4 +1,4 @@
-// One step of growth: every disk takes its share of the gaps around it. The formulas stand here once; the plain step is
+// One step of growth: every disk takes its share of the gaps around it. The formulas are only here; the plain step is
 // declared below, the parallel one in parallel/start/growth_step.hpp.
 #pragma once
 
@@ -14,23 +14,24 @@
 
 namespace carom {
 
-// Share of a gap that is closed in one step. More of it grows faster, but leaves disks that nearly touch many others at
-// once, whose collisions then come in bursts; all of it would leave nothing for rounding.
+// The share of a gap that is closed in one step. With a larger share growth is faster, but leaves disks that nearly
+// touch many others at the same time, whose collisions then come in bursts; closing all of it would leave nothing for
+// rounding.
 inline constexpr double closed_share = 0.75;
 
-// How far a disk looks for others; what is further away than the sum of two such reaches stops neither.
+// The reach of a disk's search for others: disks further apart than the sum of their reaches do not limit each other.
 inline double growth_reach(double radius, double target) {
   return radius + (target - radius) / closed_share;
 }
 
-// The room that growth may use between two edges; 0 where it is within the rounding of coordinates, so that no radius
-// ever closes a gap by its last bit. length: the longer side of the box.
+// The part of the gap between two edges that growth may use; 0 if the gap is within the rounding of coordinates, so
+// that no radius ever closes a gap by its last bit. length: the longer side of the box.
 inline double usable_gap(double gap, double length) {
   return gap > 0x1p-46 * length ? closed_share * gap : 0.0;
 }
 
-// The radius that the gap to another disk allows: both get of it in proportion to what they lack, so that the two
-// together never take more than the usable gap. Precondition: lack > 0.
+// The radius that the gap to another disk allows: each of the two takes a share in proportion to what it lacks, so that
+// together they never take more than the usable gap. Precondition: lack > 0.
 inline double radius_within(double radius, double lack, double other_lack, double usable) {
   return radius + usable * (lack / (lack + other_lack));
 }
@@ -44,14 +45,14 @@ inline double radius_within_sides(const Domain& box, double x, double y, double 
   return radius + usable_gap(room - radius, std::max(box.width, box.height));
 }
 
-// Does the disk lie within walls and sinks, to the last bit?
+// Is the disk within walls and sinks, to the last bit?
 inline bool within_sides(const Domain& box, double x, double y, double radius) {
   return (box.periodic_x() || (x >= radius && x <= box.width - radius)) &&
          (box.periodic_y() || (y >= radius && y <= box.height - radius));
 }
 
-// The radius that the obstacles within reach allow, and whether the disk overlaps one as it is; they take nothing of a
-// gap. reach: growth_reach.
+// The radius that the obstacles within reach allow, and whether the disk already overlaps one; obstacles take no part
+// of a gap. reach: growth_reach.
 struct RoomAtObstacles {
   double radius = HUGE_VAL;
   bool overlap = false;
@@ -68,11 +69,11 @@ inline RoomAtObstacles radius_within_obstacles(const Domain& box, double x, doub
   return room;
 }
 
-// What a step found and did. Sums have no rounding, so the order of the disks does not matter.
+// The results of a step. Sums have no rounding, so the order of the disks does not matter.
 struct GrowthTally {
   std::size_t lacking = 0;  // disks that lacked something before the step
-  bool overlap = false;     // two disks, or a disk and a side or an obstacle, overlapped before the step, by rounding
-  double most_lack = 0.0;   // target - radius after the step, the largest of any disk; length
+  bool overlap = false;     // did two disks, or a disk and a side or an obstacle, overlap before the step, by rounding?
+  double most_lack = 0.0;   // largest target - radius of any disk after the step; length
   ExactSum area;            // of radius^2 after the step; length^2
   ExactSum lack;            // of target^2 - radius^2 after the step; length^2
 
@@ -91,9 +92,9 @@ struct GrowthTally {
   }
 };
 
-// Gives every disk the radius that all gaps around it allow, its target at most. Disks may be stored in any order, and
-// stay in it. Preconditions: disks has a radius column; target[id] is the final radius of disk id, nowhere below the
-// present one; the box is two final diameters wide where it is periodic.
+// Gives every disk the radius that all gaps around it allow, at most its target. Disks may be stored in any order, and
+// keep it. Preconditions: disks has a radius column; target[id] is the final radius of disk id, nowhere below the
+// present one; the box is at least two final diameters wide along a period.
 GrowthTally grow_step(Disks& disks, const Domain& box, const std::vector<double>& target);
 
 }  // namespace carom

@@ -16,7 +16,7 @@ namespace carom {
 
 namespace {
 
-// The box that a lattice fills: all of it, or a region's rectangle, periodic where it spans a periodic side.
+// The box that a lattice fills: the whole box, or a region's rectangle, periodic if it spans a periodic side.
 struct LatticeRoom {
   Domain box;
   Vec2 origin;
@@ -30,21 +30,21 @@ LatticeRoom lattice_room(const Domain& box, const std::optional<StartRegion>& re
   return room;
 }
 
-// Fixed disks may be wider than the box. On a lattice their sites would then lie outside it. slack: by which a region
-// that one row of disks fills in decimals may be narrower; length.
+// Fixed disks may be wider than the box; on a lattice their sites would then be outside it. slack: a region filled in
+// decimals by one row of disks may be narrower by this; length.
 bool holds_disk(const Domain& box, double radius, double slack) {
   return (box.periodic_x() || box.width + slack >= 2.0 * radius) &&
          (box.periodic_y() || box.height + slack >= 2.0 * radius);
 }
 
-// The place nearest to c where the disk lies between sides at 0 and length; in the middle, where length is the disk's
-// diameter but for rounding.
+// The place nearest to c where the disk is between sides at 0 and length; the middle if length is the disk's diameter
+// except for rounding.
 double within_sides(double c, double radius, double length) {
   return radius < length - radius ? std::clamp(c, radius, length - radius) : 0.5 * length;
 }
 
-// Where decimals far from the corner are rounded, a region that a row of disks fills comes out narrower than the row,
-// by this slack at most. Its lattice then takes so much more, and `at` keeps the disks within.
+// A region that a row of disks fills may be narrower than the row by rounding of decimals far from the corner, by at
+// most this slack. Its lattice is then extended by that, and `at` keeps the disks within the region.
 Domain widened(Domain box, double slack) {
   if (!box.periodic_x()) box.width += slack;
   if (!box.periodic_y()) box.height += slack;
@@ -106,7 +106,7 @@ void LatticePlaces::fill_circle(const Scene& scene, std::size_t group) {
 Vec2 LatticePlaces::at(Count k) const {
   if (!sites_.empty()) return {origin_.x + sites_[k].x, origin_.y + sites_[k].y};
   Vec2 site = lattice_site(lattice_, k, count_);
-  // Rounding must not carry the outermost disks of a full lattice into a side.
+  // Rounding must not move the outermost disks of a full lattice into a side.
   if (!box_.periodic_x()) site.x = within_sides(site.x, radius_, box_.width);
   if (!box_.periodic_y()) site.y = within_sides(site.y, radius_, box_.height);
   return {origin_.x + site.x, origin_.y + site.y};

@@ -7,7 +7,7 @@ namespace carom {
 
 namespace {
 
-// Part of a region's size by which rounding must not rule out what is allowed.
+// Share of a region's size by which rounding must not rule out what is allowed.
 constexpr double region_margin = 1e-9;
 
 bool meets_along(double low, double high, double region_low, double region_high, double radius) {

@@ -1,4 +1,4 @@
-// The part of the box within which a group starts (StartRegion): which centres a disk may have there.
+// The part of the box in which a group starts (StartRegion), and the places for centres in it.
 #pragma once
 
 #include "core/disks/domain.hpp"
@@ -14,11 +14,11 @@ inline bool spans_y(const StartRegion& region, const Domain& box) {
   return !region.circle && box.periodic_y() && region.low.y == 0.0 && region.high.y == box.height;
 }
 
-// May the centre of a disk of this radius, whole within the region, lie in the rectangle [low, high]? Yes where
+// May the centre of a disk of this radius that is entirely within the region be in the rectangle [low, high]? True if
 // rounding leaves a doubt.
 bool may_hold_centre(const StartRegion& region, const Domain& box, Vec2 low, Vec2 high, double radius);
 
-// Area; length^2.
+// The region's area; length^2.
 double area_of(const StartRegion& region);
 
 }  // namespace carom
