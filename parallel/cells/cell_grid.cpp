@@ -7,14 +7,14 @@ namespace carom {
 
 namespace {
 
-// A disk that has left the cells that are stored must be nearer to one end of them than to the other.
+// So many cells must be left out that a disk outside the stored cells is nearer to one end of them than to the other.
 constexpr std::int64_t least_left_out = 2;
 
 // In a grid: kernels read keys as signed numbers of 32 bits, and a level of one row has two keys a cell.
 constexpr double most_cells = 1e9;
 constexpr double cells_a_disk = 2.0;
-// Where disks crowd: at most so many times as many cells, and at most so many in all, as each sort clears and scans all
-// cells.
+// If disks crowd: the largest factor for the number of cells, and the largest number of cells with it; each sort clears
+// and scans all cells.
 constexpr double most_crowding = 64.0;
 constexpr double most_cells_when_crowded = 0x1p24;
 
@@ -23,12 +23,12 @@ std::uint32_t cells_of_side(double length, double least, double most, bool perio
   return periodic && cells < 3.0 ? 1 : static_cast<std::uint32_t>(cells);
 }
 
-// The smallest cell that still finds every neighbour.
+// The smallest cell with which every neighbour is still found.
 double least_cell(double radius, double margin) {
   return 2.0 * radius + 2.0 * (margin * 2.0 * radius);
 }
 
-// Those between two places along a side, in cells, or all of them.
+// The cells between two places along a side, in units of cells, or all of them.
 StoredCells stored_between(double low, double high, std::uint32_t cells_of_side, bool periodic) {
   const std::int64_t cells = cells_of_side;
   const auto cell_at = [&](double at) {
@@ -41,7 +41,7 @@ StoredCells stored_between(double low, double high, std::uint32_t cells_of_side,
   return {static_cast<std::uint32_t>((first % cells + cells) % cells), static_cast<std::uint32_t>(count)};
 }
 
-// How many cells so many disks get at most.
+// The largest number of cells for this number of disks.
 double cells_for(double disks, double crowding) {
   const double spread = cells_a_disk * disks + 1.0;
   return std::max(spread, std::min(spread * std::min(crowding, most_crowding), most_cells_when_crowded));
@@ -77,7 +77,7 @@ void make_grid(const Domain& box, double largest_radius, const std::vector<std::
     level.largest_radius = radius;
     level.margin = margin * 2.0 * radius;
     const double least = least_cell(radius, margin);
-    // Shared between the sides as the box is.
+    // Divided between the two directions in the ratio of the box's sides.
     const double cells = std::min(cells_for(static_cast<double>(count[k]), crowding), most_cells_a_level);
     const double across = std::sqrt(cells * box.width / box.height);
     level.columns = cells_of_side(box.width, least, std::clamp(across, 1.0, cells), box.periodic_x());

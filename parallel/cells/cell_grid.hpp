@@ -1,4 +1,4 @@
-// The cells that the disks are sorted into: one grid for each size class, rows of cells contiguous in memory.
+// The cells into which the disks are sorted: one grid for each size class, rows of cells contiguous in memory.
 #pragma once
 
 #include <cstddef>
@@ -11,20 +11,20 @@
 
 namespace carom {
 
-// How far a disk may leave the cell that it was sorted into and still be found there, over the largest diameter of its
-// size class. A larger margin: disks are sorted less often, but every search looks at more of them. Time stepping takes
-// twice as much, as it tests eight disks at a time.
+// The distance that a disk may leave its cell by and still be found there, over the largest diameter of its size class.
+// With a larger margin disks are sorted less often, but every search tests more of them. Time stepping uses twice this
+// value, since it tests eight disks at a time.
 inline constexpr double grid_margin = 0.1;
 
-// Radii of one class differ by less than this factor, so that no cell holds many disks however mixed the sizes are.
+// Radii of one class differ by less than this factor, so that no cell holds many disks, however mixed the sizes are.
 inline constexpr double class_ratio = 2.0;
 
-// Which of the cells along a side are stored: so many from the first one on, perhaps round the box; as many as there
-// can be where all are.
+// The cells along a side that are stored: a number of them from the first one on, possibly round the box; if all are
+// stored, count is the largest possible number.
 struct StoredCells {
   std::uint32_t first = 0, count = 0xffffffffU;
 
-  // The place of a cell, of so many along the side, among those that are stored; of one that is not, that of the
+  // The place among the stored cells of a cell along a side with this number of cells; if it is not stored, that of the
   // nearest one that is.
   std::uint32_t place_of(std::uint32_t cell, std::uint32_t cells) const {
     const std::uint32_t place = cell - first;
@@ -42,10 +42,10 @@ struct StoredCells {
 
 // The grid of one size class. The cell in a row and a column has the key first_key + row * stride + column. Each row
 // ends in one empty cell, and one empty row follows the last, so that the neighbours of every cell can be looked up
-// without asking where it lies. Where only some rows are kept (keep_rows), first_key lies before the first key in use,
-// modulo 2^32, so that keys tell the row in the box. Where only some rows and columns are
-// stored (store_cells_between), they tell the places among those. A tiled level is cut into bands of 2^band_shift
-// columns and groups of 2^group_shift rows, without the empty cells; a tile is what a band and a group have in common.
+// whatever its position. If only some rows are kept (keep_rows), first_key is before the first key in use, modulo 2^32,
+// so that keys give the row in the box. If only some rows and columns are stored (store_cells_between), keys give the
+// places among those. A tiled level is cut into bands of 2^band_shift columns and groups of 2^group_shift rows, without
+// the empty cells; a tile is the intersection of a band and a group.
 struct GridLevel {
   double largest_radius = 0.0;                 // of the class; length
   double cell_width = 0.0;                     // length
@@ -54,7 +54,7 @@ struct GridLevel {
   double rows_per_length = 0.0;                // 1 / cell_height
   double margin = 0.0;                         // length by which a disk may leave its cell
   std::uint32_t columns = 1, rows = 1;         // of the whole box
-  std::uint32_t first_row = 0, kept_rows = 1;  // those that have cells
+  std::uint32_t first_row = 0, kept_rows = 1;  // rows that have cells
   std::uint32_t stride = 2;
   std::uint32_t first_key = 0;
   unsigned band_shift = 31;   // columns in a band: 2^band_shift
@@ -62,11 +62,11 @@ struct GridLevel {
   std::uint32_t band_keys = 0, group_keys = 0;
   StoredCells stored_rows, stored_columns;
 
-  // Of a level that is not tiled: how many keys it has, and the first of them.
+  // For a level that is not tiled: the number of its keys, and the first key.
   std::uint32_t keys() const { return (kept_rows + 1) * stride + 2; }
   std::uint32_t start_key() const { return first_key + first_row * stride; }
   bool has_row(std::uint32_t row) const { return row - first_row < kept_rows; }
-  // The key of a cell of the box, or of the nearest one that is stored.
+  // The key of a cell of the box, or of the nearest stored cell.
   std::uint32_t stored_key(std::uint32_t row, std::uint32_t column) const {
     return key_at(stored_rows.place_of(row, rows), stored_columns.place_of(column, columns));
   }
@@ -77,7 +77,7 @@ struct GridLevel {
   std::uint32_t key_of_row(std::uint32_t row) const {
     return (row >> group_shift) * group_keys + (row & ((1U << group_shift) - 1U)) * stride;
   }
-  // The row that follows the last one of this row's group.
+  // The row behind the last one of this row's group.
   std::uint32_t end_of_group(std::uint32_t row) const { return ((row >> group_shift) + 1U) << group_shift; }
   std::uint32_t key_of_column(std::uint32_t column) const {
     return (column >> band_shift) * band_keys + (column & ((1U << band_shift) - 1U));
@@ -92,7 +92,7 @@ struct CellGrid {
   std::uint32_t keys = 0;         // of all levels
   std::uint32_t tiles = 1;
   std::uint32_t tiles_a_layer = 1;  // neighbours in memory, from one side of the box to the other
-  std::uint32_t tile_keys = 0;      // of all levels in a tile, which are neighbours in memory; 0: not tiled
+  std::uint32_t tile_keys = 0;      // keys of all levels in a tile, which are neighbours in memory; 0: not tiled
 };
 
 // Size class k holds radii r with largest / 2^(k+1) < r <= largest / 2^k. Precondition: radius > 0.
@@ -102,30 +102,30 @@ inline std::size_t class_of_radius(double radius, double largest_radius) {
   return k;
 }
 
-// How many disks each size class has, up to that of the smallest disk; one class at least. Precondition: no radius is
-// above largest_radius.
+// The number of disks in each size class, up to that of the smallest disk; at least one class. Precondition: no radius
+// is above largest_radius.
 void count_classes(const Disks& disks, double largest_radius, std::vector<std::size_t>& count);
 std::vector<std::size_t> count_classes(const Disks& disks, double largest_radius);
 
 // Makes a level for each size class; count[k] is the number of disks of class k. A level's cells are at least a
 // diameter and two margins wide. There are not many more cells than disks, unless these crowd (`crowding`:
-// crowding.hpp): then there are more in proportion. Where fewer than three cells would fit along a period there is one,
-// which is its own neighbour. margin: as grid_margin. The memory that grid has is used again.
+// crowding.hpp): then there are more in proportion. If fewer than three cells would fit along a period there is one,
+// which is its own neighbour. margin: as grid_margin. The memory of grid is reused.
 void make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count, CellGrid& grid,
                double margin = grid_margin, double crowding = 1.0);
 CellGrid make_grid(const Domain& box, double largest_radius, const std::vector<std::size_t>& count);
 
-// Would this grid have smaller cells if there were more disks? If not, crowding makes no difference to it.
+// Would this grid have smaller cells if there were more disks? If not, crowding has no effect on it.
 bool is_bounded_by_disks(const Domain& box, double largest_radius, const std::vector<std::size_t>& count,
                          double margin = grid_margin);
 
-// Only the cells of disks between these heights are kept: a disk elsewhere must not be sorted into the grid, and is
-// found near no place. Precondition: the grid is not tiled, and all its rows are kept.
+// Keeps only the cells of disks between these heights: a disk elsewhere must not be sorted into the grid, and is found
+// near no place. Preconditions: the grid is not tiled, and all its rows are kept.
 void keep_rows(CellGrid& grid, double low, double high);
 
-// Only the cells of the rectangle between these two places are stored, which may lie across the sides of a periodic
-// box. A disk elsewhere is in the row and the column that are nearest among those stored. Where the other rows, or
-// columns, would be few, all stay; so they do where `low` is not below `high`. Precondition as for keep_rows.
+// Stores only the cells of the rectangle between these two places, which may extend across the sides of a periodic box.
+// A disk elsewhere is put into the nearest stored row and column. All rows, or columns, stay if few would be removed,
+// or if `low` is not below `high`. Preconditions as for keep_rows.
 void store_cells_between(const Domain& box, Vec2 low, Vec2 high, CellGrid& grid);
 
 inline std::uint32_t row_at(const GridLevel& level, double y) {

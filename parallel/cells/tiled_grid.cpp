@@ -9,19 +9,20 @@ namespace carom {
 
 namespace {
 
-// A tile has a power of two of cells, so that it is this many to within a factor of 1.4. A cell has eight slots
-// (CellSlots).
+// The number of cells of a tile is a power of two, so the real value is within a factor of 1.4 of this. A cell has
+// eight slots (CellSlots).
 constexpr double disks_per_cell = 5.0;
-// Nearly the most that the rounding leaves, so that there are few cells (even_tile).
+// Nearly the largest value possible with that rounding, so that there are few cells (even_tile).
 constexpr double disks_per_even_cell = 1.3 * disks_per_cell;
-// The number of a tile has to fit in 16 bits; sides that are rounded make up to twice as many.
+// The number of a tile must fit in 16 bits; rounding of the sides may double the number of tiles.
 constexpr double most_tiles = 30000.0;
-// Enough that regions can be given nearly the same number of disks where those are spread unevenly.
+// Enough for regions to get nearly the same number of disks if these are unevenly spread.
 constexpr std::uint32_t most_layers_a_region = 8;
-// Thinner layers would cut most searches in two.
+// In thinner layers most searches would extend over two.
 constexpr double least_cells_a_layer = 8.0;
 
-// A disk that has left the tiles that are kept must be nearer to one end of them than to the other.
+// So many groups must be left out that a disk outside the tiles that are kept is nearer to one end of them than to the
+// other.
 constexpr std::int64_t least_groups_left_out = 2;
 
 // log2 of the number of parts of about this size in the whole.
@@ -33,7 +34,7 @@ std::uint32_t parts_of(double whole, double part) {
   return static_cast<std::uint32_t>(std::max(1L, std::lround(whole / part)));
 }
 
-// Parts of a side of the box. cell: of the most frequent class; part: wanted; lengths.
+// The number of layers along a side of the box. cell: of the most frequent class; part: thickness wanted; lengths.
 std::uint32_t layers_for(double side, double cell, double part, std::size_t regions) {
   const auto most = static_cast<std::uint32_t>(std::clamp(side / (least_cells_a_layer * cell), 1.0, most_tiles));
   const auto shares = static_cast<std::uint32_t>(regions);
@@ -52,7 +53,7 @@ void make_tiled_grid(const Domain& box, double largest_radius, const std::vector
   const double tile_area = std::max(static_cast<double>(disks_per_tile), n / most_tiles) * area / n;
   const double longer = std::max(box.width, box.height);
   const double shorter = std::min(box.width, box.height);
-  // In a box narrower than a square tile a tile goes from side to side, and is longer.
+  // In a box narrower than a square tile, a tile extends from side to side and is longer.
   const double thickness = std::max(std::sqrt(tile_area), tile_area / shorter);
   const std::uint32_t layers = layers_for(longer, cell_of(most), thickness, regions);
   const std::uint32_t tiles_a_layer = parts_of(shorter, tile_area / (longer / layers));
@@ -68,7 +69,8 @@ void make_tiled_grid(const Domain& box, double largest_radius, const std::vector
     GridLevel level;
     level.largest_radius = radius;
     const double cell = cell_of(static_cast<double>(count[k]));
-    // First how many cells a tile has: were both sides rounded by themselves, cells could hold half or twice as many.
+    // The number of a tile's cells is rounded first: if both sides were rounded separately, cells could have half or
+    // twice as many disks.
     const unsigned shift = shift_for(width * height, cell * cell);
     const double band_shift = 0.5 * (shift + std::log2(width / height));
     level.band_shift = static_cast<unsigned>(std::lround(std::clamp<double>(band_shift, 0.0, shift)));

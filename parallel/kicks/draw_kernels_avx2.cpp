@@ -1,4 +1,4 @@
-// Compiled with -mavx2 on x86-64 (CMakeLists.txt); elsewhere it calls the baseline.
+// Compiled with -mavx2 on x86-64 (CMakeLists.txt); on other machines it calls the baseline.
 #include "parallel/kicks/draw_kernels.hpp"
 
 #if defined(__AVX2__)
@@ -160,8 +160,8 @@ class Points {
 
   static __m128i load(const std::uint32_t* p) { return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p)); }
 
-  // Writes those of the four numbers that are in the set, and anything after them; returns how many there are. There is
-  // no branch, as it could not be predicted.
+  // Writes those of the four numbers that are in the set, and anything behind them; returns how many there are. There
+  // is no branch, since it could not be predicted.
   static std::size_t append(__m128i number, unsigned set, std::uint32_t* to) {
     const __m128i order = _mm_loadu_si128(reinterpret_cast<const __m128i*>(packing[set].data()));
     _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm_shuffle_epi8(number, order));

@@ -9,7 +9,7 @@ namespace carom {
 
 namespace {
 
-// Disks a block.
+// Disks in a block.
 constexpr std::size_t draw_block = 8192;
 
 }  // namespace
