@@ -120,7 +120,7 @@ void BorderPass::process(std::uint32_t leader, double per_disk) {
   events.run();
 }
 
-// First each thread relists the disks whose lists lie within its border; then one thread relists the rest. One thread
+// First each thread relists the disks whose lists are within its border; then one thread relists the rest. One thread
 // sets the marks, since they reach as far as the neighbours of neighbours.
 void BorderPass::relist_late() {
   executor_.run(borders_.size(), [&](std::size_t b) {

@@ -1,5 +1,5 @@
-// Processes the events of a slice that regions had to leave: those of disks whose motion depends on other regions,
-// border by border.
+// Processes the events of a slice that regions have left over, border by border: those of disks whose motion depends on
+// other regions.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,8 @@ namespace carom {
 // Between two successive regions is a border; the last region borders on the first one. The disks of a border are those
 // from the middle of one region to the middle of the next, so that each disk belongs to one border. One thread
 // processes the events of a border's disks. Borders are independent of each other, unless a disk whose motion is not
-// known lists one of another border whose motion is not known either: such borders are joined for the slice and have
-// one thread. No disk is relisted before the slice's end, as none leaves its skin in a slice
-// (SliceScheduler::longest_slice).
+// known lists such a disk of another border: these borders are joined for the slice and have one thread. No disk is
+// relisted before the slice's end, since none leaves its skin in a slice (SliceScheduler::longest_slice).
 class BorderPass {
  public:
   BorderPass(WindowState& window, NeighbourLists& lists, const Executor& executor)
@@ -29,13 +28,14 @@ class BorderPass {
   void lay_out(const std::vector<Region>& regions);
   void begin_window();
 
-  // Processes the events of the slice that regions left over. per_disk: events per disk and unit of time, about.
+  // Processes the events of the slice that regions left over. per_disk: events per disk and unit of time, may be
+  // approximate.
   void run(const std::vector<Region>& regions, double per_disk);
   // Has the pass found that the window is invalid?
   bool ended() const;
 
-  // After the slice, on one thread: relists disk i if it has moved further than a disk at a border may have at the
-  // start of a slice.
+  // After the slice, on one thread: relists disk i if it has moved further than is allowed for a disk at a border at
+  // the start of a slice.
   void relist_if_far(std::uint32_t i);
 
   // Disks that came to be at a border in the slice, and disks that now list one at a border.
@@ -54,9 +54,9 @@ class BorderPass {
     Worker worker;
     ListRegion region;   // of its disks
     bool wraps = false;  // its disks are those outside `region`: this border lies between the last region and the first
-    std::vector<std::uint32_t> disks;    // whose motion is not known
+    std::vector<std::uint32_t> disks;    // disks whose motion is not known
     std::vector<std::uint32_t> touches;  // other borders
-    std::uint32_t leader = 0;            // of the borders joined with this one, that whose worker processes the events
+    std::uint32_t leader = 0;  // the border that leads those joined with this one: its worker processes the events
     bool is_alone = true;
     bool holds(std::uint32_t disk) const { return region.holds(disk) != wraps; }
   };

@@ -8,7 +8,7 @@ namespace {
 
 // Steps along a side in which disks are counted.
 constexpr std::size_t steps = 8192;
-// A sample of so many disks is enough to choose the cuts.
+// A sample of this number of disks is enough to choose the cuts.
 constexpr std::size_t most_counted = 0x100000;
 
 // The work of the disks in each step along each axis.

@@ -17,10 +17,10 @@ inline bool has_all_stored(StoredCells stored, std::uint32_t cells, Span span) {
   return ahead + stored.count <= span.count;
 }
 
-// For a span of cells along a side, the places of those among the ones that are stored. Where the span reaches from
-// cells nearer to the last one stored to cells nearer to the first, it is all of them: disks may have flown there, and
-// of two that are near each other each must find the other. So it is where the span has them all: its last cell may lie
-// nearer, round the box, to the first one stored.
+// For a span of cells along a side: the places of its cells among the stored ones. If the span reaches from cells
+// nearer to the last stored one to cells nearer to the first, the result is all stored cells: disks may have flown
+// there, and of two disks near each other each must find the other. The result is also all stored cells if the span
+// contains them all: its last cell may be nearer, round the box, to the first one stored.
 inline Span stored_span(StoredCells stored, std::uint32_t cells, Span span) {
   if (span.count == cells) return {0, std::min(cells, stored.count)};
   if (stored.count >= cells) return span;
@@ -31,8 +31,8 @@ inline Span stored_span(StoredCells stored, std::uint32_t cells, Span span) {
   return last >= first ? Span{first, last - first + 1} : Span{0, stored.count};
 }
 
-// Calls visit(block) for blocks that together are the cells of these rows and columns of a level, spans of those that
-// are stored.
+// Calls visit(block) for blocks that together are the cells of these rows and columns of a level, which are spans of
+// stored cells.
 template <class Visit>
 void for_each_cell_block(const GridLevel& level, Span rows, Span columns, Visit&& visit) {
   for (std::uint32_t left = columns.count, column = columns.first; left > 0;) {
@@ -50,14 +50,14 @@ void for_each_cell_block(const GridLevel& level, Span rows, Span columns, Visit&
   }
 }
 
-// The same for rows and columns of the box, of which perhaps not all are stored.
+// The same for rows and columns of the box, of which not all may be stored.
 template <class Visit>
 void for_each_stored_block(const GridLevel& level, Span rows, Span columns, Visit&& visit) {
   for_each_cell_block(level, stored_span(level.stored_rows, level.rows, rows),
                       stored_span(level.stored_columns, level.columns, columns), visit);
 }
 
-// The cell that follows the last one of a block.
+// The cell behind the last one of a block.
 inline std::uint32_t end_of(const CellBlock& block) {
   return block.first + (block.rows - 1) * block.stride + block.width;
 }

@@ -27,7 +27,7 @@ class CellSlots {
   [[gnu::hot]] void remove(std::uint32_t cell, std::uint32_t disk);
 
   SlotColumns columns() const { return {cells_.data(), radius_.empty() ? nullptr : radius_.data()}; }
-  // As begin() was told.
+  // As set by begin().
   bool have_radii() const { return !radius_.empty(); }
   // Prefetches cells [first, last).
   [[gnu::always_inline]] void prefetch(std::uint32_t first, std::uint32_t last) const {
@@ -82,13 +82,13 @@ class CellSlots {
  private:
   struct Link {
     std::uint32_t disk;
-    std::uint32_t next;  // number of a link of the same part; none
+    std::uint32_t next;  // number of a link of the same part, or none
   };
   struct PartLinks {
     std::vector<Link> link;
-    std::uint32_t free = none;  // the first of those that are not in use
+    std::uint32_t free = none;  // the first unused link
   };
-  // Of so many cells.
+  // The number of cells whose links are tested at a time.
   static constexpr std::uint32_t links_at_once = 4;
   using Links = std::uint32_t __attribute__((vector_size(4 * links_at_once)));
   static constexpr Links no_links = {none, none, none, none};
@@ -101,7 +101,7 @@ class CellSlots {
   PartLinks& links_of(std::uint32_t cell) { return links_[cell / cells_a_part_]; }
 
   std::vector<SlotCell> cells_;
-  std::vector<float> radius_;         // by slot, where they differ
+  std::vector<float> radius_;         // by slot, if radii differ
   std::vector<std::uint32_t> chain_;  // by cell: number of the link of the first disk chained to it
   std::vector<PartLinks> links_;      // by part
   std::uint32_t cells_a_part_ = 1;

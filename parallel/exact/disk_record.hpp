@@ -51,19 +51,19 @@ static_assert(Partner::disk(first_obstacle_partner - 1).is_disk());
 static_assert(Partner::obstacle(0).is_obstacle() && !Partner::obstacle(0).is_disk() && !Partner::obstacle(0).is_wall());
 static_assert(Partner::obstacle(0).is_contact() && !Partner::wall(Side::left).is_obstacle());
 
-// With regions: up to which time a disk's motion is known in the present slice, in 32 bits. An active disk: as far as
-// events have been processed. A disk at a border: up to the slice's start. A blocked disk: up to its safe time within
+// With regions: the time up to which a disk's motion is known in the present slice, in 32 bits. For an active disk it
+// is that of the events processed; for a disk at a border, the slice's start; for a blocked disk its safe time within
 // the slice, which is in its BlockedDisk (worker.hpp). A disk also has marks.
 class DiskProgress {
  public:
   enum Mark : std::uint32_t {
     at_border = 1,                 // lists a disk of another region
     lists_border = 2,              // lists a disk that is at a border
-    has_unresolved_neighbour = 4,  // perhaps: one that is at a border, or blocked in this slice
-    relists_late = 8,              // is due to be relisted, which waits for the end of the slice
-    ghost = 16                     // belongs to another rank, which counts what happens to it
+    has_unresolved_neighbour = 4,  // possibly has a neighbour that is at a border, or blocked in this slice
+    relists_late = 8,              // must be relisted at the end of the slice
+    ghost = 16                     // belongs to another rank, which counts its events
   };
-  // The same bits where each thread has a part of the box with a halo (HaloPart). There, `ghost` marks the disks of the
+  // The same bits if each thread has a part of the box with a halo (HaloPart): there, `ghost` marks the disks of the
   // halo.
   enum HaloMark : std::uint32_t {
     met_own = 1  // a ghost that a disk of the part has met in the window
@@ -81,7 +81,7 @@ class DiskProgress {
 
   constexpr bool has(Mark mark) const { return (bits_ & mark) != 0; }
   constexpr void set(Mark mark) { bits_ |= mark; }
-  // At a border, or a neighbour of one that is.
+  // Is the disk at a border, or a neighbour of one that is?
   constexpr bool is_near_border() const { return (bits_ & (at_border | lists_border)) != 0; }
   constexpr void clear(Mark mark) { bits_ &= ~static_cast<std::uint32_t>(mark); }
   constexpr bool has(HaloMark mark) const { return (bits_ & mark) != 0; }
@@ -99,14 +99,14 @@ class DiskProgress {
 };
 static_assert(sizeof(DiskProgress) == 4 && DiskProgress().is_active() && !DiskProgress().is_blocked());
 
-// What a prediction reads of a disk, in one cache line.
+// The data of a disk that a prediction reads, in one cache line.
 struct alignas(64) DiskRecord {
   PathSegment path;
   double radius = 0.0;
   DiskId id = 0;
   Partner partner;                    // of the next event
   std::uint16_t version = 0;          // segments begun in the window
-  std::uint16_t partner_version = 0;  // that the partner had when the event was predicted
+  std::uint16_t partner_version = 0;  // of the partner when the event was predicted
   DiskProgress progress;
 };
 static_assert(sizeof(DiskRecord) == 64);

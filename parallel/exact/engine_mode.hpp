@@ -25,18 +25,19 @@ struct ListLayout {
   EngineMode mode = EngineMode::single_queue;
   std::size_t disks_per_tile = 0;  // with regions
   std::size_t regions = 0;
-  // How far a disk near a border between regions may move before it is relisted, over the skin; others may move by the
-  // whole skin. Less than 1 with regions: a disk at a border is not relisted within a slice, and must not leave its
-  // skin in it.
+  // The distance that a disk near a border between regions may move before it is relisted, over the skin; other disks
+  // may move by the whole skin. Less than 1 with regions: a disk at a border is not relisted within a slice, and must
+  // not leave its skin in it.
   double relist_share = 1.0;
   // Prefetch disks whose events come soon, since a cache does not hold all.
   bool looks_ahead = false;
   // The number of disks in the whole box, if a rank or a part has only some of them; 0: it has all.
   std::size_t disks_of_box = 0;
-  // Then its disks lie about in the rectangle between these two places; along an axis on which low is not below high,
-  // anywhere in the box. Lengths.
+  // If disks_of_box is not 0: the disks are about in the rectangle between these two places; along an axis on which low
+  // is not below high, anywhere in the box. Lengths.
   Vec2 low{}, high{};
-  // Then the largest radius in the whole box: lists of disks that are hardly smaller take up larger ones, too. Length.
+  // If disks_of_box is not 0: the largest radius in the whole box; lists for disks hardly smaller can take larger ones.
+  // Length.
   double largest_of_box = 0.0;
   // The growth of every radius that lists allow for; it reduces the skin by as much; length.
   double growth = 0.0;
@@ -46,10 +47,10 @@ struct ListLayout {
 // windows of few disks.
 inline constexpr std::size_t all_pairs_up_to = 40;
 // Up to this number of disks one queue on one thread is as fast as regions on two threads; the second constant is used
-// where work is cut into smaller blocks, as in tests.
+// if work is cut into smaller blocks, as in tests.
 inline constexpr std::size_t single_queue_up_to = 49152;
 inline constexpr std::size_t single_queue_of_cut_work_up_to = 8192;
-// The data of so many disks, 200 bytes each, fit in the second-level cache.
+// The data of this number of disks, 200 bytes each, fit in the second-level cache.
 inline constexpr std::size_t disks_in_cache = 16384;
 // Disks of a tile are neighbours in memory; regions consist of whole layers of tiles.
 inline constexpr std::size_t most_disks_a_tile = 8192;
@@ -58,8 +59,8 @@ inline constexpr std::size_t tiles_a_region = 16;
 inline constexpr double region_relist_share = 0.75;
 // relist_share on one of several ranks.
 inline constexpr double rank_relist_share = 0.7;
-// The least width of a region, in mean spacings: in a narrower one, the disks that are blocked from one border and from
-// the other meet.
+// The least width of a region, in mean spacings: in a narrower one, the disks blocked from one border would meet those
+// blocked from the other.
 inline constexpr double least_region_width = 30.0;
 // With more disks than this, memory that is not needed at present is freed.
 inline constexpr std::size_t disks_of_much_memory = 65536;
@@ -70,16 +71,16 @@ inline std::size_t most_regions(std::size_t disks, const Domain& box) {
   return static_cast<std::size_t>(std::sqrt(aspect * static_cast<double>(disks)) / least_region_width);
 }
 
-// The layout for all disks together; whether windows are run in parts is asked before (HaloWindows). regions_allowed:
-// false where a window is to be run again without regions.
+// The layout for all disks together; whether windows are run in parts is decided before (HaloWindows). regions_allowed:
+// false if a window must be run again without regions.
 inline ListLayout choose_layout(std::size_t disks, const Domain& box, bool regions_allowed, const Executor& executor) {
   if (disks <= all_pairs_up_to) return {.mode = EngineMode::all_pairs};
   if (!can_list_in(box)) {
     check_all_listed(disks);
     return {.mode = EngineMode::all_pairs};
   }
-  // Where work is cut into smaller blocks (tests), regions are used for fewer disks, too, and more than one of them on
-  // one thread.
+  // If work is cut into smaller blocks (tests), regions are used for fewer disks, too, and more than one of them on one
+  // thread.
   const bool is_cut = executor.grain(single_queue_up_to) < single_queue_up_to;
   const std::size_t single = is_cut                    ? executor.grain(single_queue_of_cut_work_up_to)
                              : executor.threads() == 1 ? disks
@@ -98,8 +99,8 @@ inline ListLayout choose_layout(std::size_t disks, const Domain& box, bool regio
           .looks_ahead = disks / regions > executor.grain(disks_in_cache)};
 }
 
-// The layout for a part of the box and its halo, which have so many disks together: one calendar. low, high: as in
-// ListLayout.
+// The layout for a part of the box and its halo, with this number of disks in both together: one calendar. low, high:
+// as in ListLayout.
 inline ListLayout layout_of_part(std::size_t disks, std::size_t disks_of_box, Vec2 low, Vec2 high) {
   ListLayout layout;
   layout.looks_ahead = disks > disks_in_cache;
@@ -110,8 +111,8 @@ inline ListLayout layout_of_part(std::size_t disks, std::size_t disks_of_box, Ve
   return layout;
 }
 
-// The layout for one of several ranks: one region, of its own disks and its ghosts. There are `disks` of them, between
-// two heights. disks_of_box: of all ranks.
+// The layout for one of several ranks: one region, for its own disks and its ghosts, `disks` in all, between two
+// heights. disks_of_box: of all ranks.
 inline ListLayout layout_of_rank(std::size_t disks, std::size_t disks_of_box, double low, double high,
                                  const Executor& executor) {
   ListLayout layout;

@@ -32,25 +32,25 @@ struct CalendarEntries {
 // that it holds one or two events. When a disk is predicted again its entry moves to another page, so there are no
 // invalid entries. If too many events fall on a page, pages are shortened; if that does not help, the page is sorted.
 //
-// Where there are many disks, neither a page nor the disks on it are in a cache. So an entry for a later page waits in
+// If there are many disks, neither a page nor the disks on it are in a cache. So an entry for a later page waits in
 // transit for some moves, until the page has been prefetched, and disks on pages that come soon are announced, so that
-// their data can be prefetched. The time is then divided in several parts one after another, so that pages take less
+// their data can be prefetched. The time is then divided into several parts one after another, so that pages take less
 // memory than the disks' entries.
 class EventCalendar {
  public:
   // How often a disk is announced before its event comes.
   static constexpr int stages = 3;
 
-  // Empties the calendar, for events of these disks in [start, end]. expected: about how many; 0 if not known. many:
-  // there are so many disks that events that come soon are announced, unless few are expected. The entries outlive the
-  // calendar's use.
+  // Empties the calendar, for events of these disks in [start, end]. expected: approximate number of events; 0 if not
+  // known. many: there are so many disks that events that come soon are announced, unless few are expected. The entries
+  // outlive the calendar's use.
   void begin(double start, double end, const CalendarEntries& disks, std::size_t expected, bool many);
 
   // Frees the memory of the pages; begin() must be called next.
   void release_memory();
 
-  // Enters the disks with the times of their entries, before any event is asked for. `never` and other times beyond the
-  // end are allowed. A disk for which is_in(disk) is false is not in the calendar until it is moved.
+  // Enters the disks with the times of their entries. Must be called before find_first. `never` and other times beyond
+  // the end are allowed. A disk for which is_in(disk) is false is not in the calendar until it is moved.
   template <class IsIn>
   void insert_all(IsIn&& is_in) {
     // Copies in registers: stores to entries could change the members otherwise.
@@ -123,24 +123,26 @@ class EventCalendar {
 
  private:
   using Node = CalendarEntry;
-  // What Node::previous is in place of a disk: the page that begins with this disk, with page_bit; in_transit, where
-  // `next` is the place in transit; absent, of a disk that is not in the calendar.
+  // Values of Node::previous other than a disk: the page that begins with this disk, with page_bit; in_transit, with
+  // the place in transit in `next`; absent, for a disk that is not in the calendar.
   static constexpr std::uint32_t page_bit = 0x80000000U;
   static constexpr std::uint32_t absent = 0xffffffffU;
   static constexpr std::uint32_t in_transit = 0xfffffffeU;  // an entry that waits to be written to its page
   // A page with more entries than this is not searched each time: pages are shortened, or it is sorted.
   static constexpr std::uint32_t crowd = 64;
-  // Disks that are announced between two announcements of a disk.
+  // The number of disks announced between two announcements of the same disk.
   static constexpr std::uint32_t disks_a_stage = 2;
   static constexpr std::uint32_t pages_ahead = 9;
   // Only entries for pages further ahead than this go into transit.
   static constexpr std::uint32_t pages_of_transit = 2 * pages_ahead;
   static constexpr std::uint32_t places_in_transit = 8;
-  // At most so many disks of a page are announced, and at most so many of all pages when one is turned. More are rare.
+  // The largest numbers of disks of a page that are announced, and of disks announced when a page is turned. More are
+  // rare.
   static constexpr std::uint32_t announced_a_page = 4;
   static constexpr int announced_at_once = 3;
 
-  // An entry of a page that comes soon, and how many disks of its list, from this one on, are to be announced.
+  // An entry of a page that comes soon, and the number of disks of its list, from this one on, that are to be
+  // announced.
   struct Followed {
     std::uint32_t disk;
     std::uint32_t left;
@@ -152,7 +154,7 @@ class EventCalendar {
     std::uint32_t page;
   };
 
-  // The page that a time is on; of a time before the present page, the present page.
+  // The page of a time; for a time before the present page, the present page.
   struct PageOfTime {
     double start, end, pages_per_time, last_page;
     std::uint32_t present, pages;
@@ -229,7 +231,8 @@ class EventCalendar {
     followed_[followed_end_ % followed_.size()] = {disk, left};
     followed_end_ += static_cast<std::uint32_t>(is_one);
   }
-  // Turns to the next page, or, where none is announced, to the next one that is not empty; false if there is none.
+  // Turns to the next page, or, if no disks are announced, to the next one that is not empty; returns false if there is
+  // none.
   template <class Soon>
   [[gnu::always_inline]] bool turn_page(Soon soon) {
     if (announces_) {
@@ -250,8 +253,8 @@ class EventCalendar {
     unsorted_from_ = page_ = std::min(page, pages_ - 1);
     return page < pages_ || begin_next_part();
   }
-  // Announces disks on pages that come soon for the first time, and earlier ones for their next stages. soon has to be
-  // inlined, as g++ 12 leaves out calls of functions that do nothing but prefetch.
+  // Announces disks on pages that come soon for the first time, and earlier ones for their next stages. soon must be
+  // inlined, since g++ 12 drops calls of functions that only prefetch.
   template <class Soon>
   [[gnu::noinline, gnu::hot]] void announce(Soon soon) {
     const std::uint32_t come = followed_end_;
@@ -308,25 +311,25 @@ class EventCalendar {
   double pages_per_time_ = 0.0;
   double last_page_ = 0.0;
   std::uint32_t pages_ = 1;
-  std::uint32_t page_ = 0;           // the present one
+  std::uint32_t page_ = 0;           // the present page
   std::uint32_t unsorted_from_ = 0;  // the present page, or the next one if the present one is sorted
   std::size_t pages_a_part_ = 1;
-  std::size_t later_pages_ = 0;  // of the parts to come
+  std::size_t later_pages_ = 0;  // pages of the parts to come
   bool announces_ = false;
   // Entries for pages at most this far ahead are written at once; others go into transit first.
   static constexpr std::uint32_t all_pages = 0xfffffffeU;
   std::uint32_t pages_written_at_once_ = all_pages;
-  std::uint32_t end_of_list_ = 0;  // the index of an entry that is no disk's
+  std::uint32_t end_of_list_ = 0;  // the index of an entry that belongs to no disk
   std::array<Transit, places_in_transit> transit_{};
   std::uint32_t next_place_ = 0;
   std::uint32_t first_in_transit_ = absent;  // no entry in transit is for an earlier page
   std::array<Followed, 16> followed_{};      // used in turn: those from followed_begin_ to before followed_end_
   std::uint32_t followed_begin_ = 0, followed_end_ = 0;
-  std::array<std::uint32_t, 8> announced_{};  // the last ones, in turn
+  std::array<std::uint32_t, 8> announced_{};  // the last ones announced, in turn
   std::uint32_t next_announced_ = 0;
   Node* node_ = nullptr;  // of each disk, by storage index
   std::uint32_t first_disk_ = 0, last_disk_ = 0;
-  // The first disk of each page, and of what comes after the end; then an entry that is never empty.
+  // The first disk of each page, and of the events after the end; then an entry that is never empty.
   std::vector<std::uint32_t> first_;
   std::vector<std::uint32_t> crowded_;  // scratch
 };

@@ -33,7 +33,8 @@ namespace {
 
 // With more new disks than this in a window, one queue is faster than regions on two threads.
 constexpr double most_newcomers_of_regions = 0.5;
-// If more than one of so many disks leaves in a window, it is cheaper to make all lists anew than to remove them.
+// If more than one of this number of disks leaves in a window, making all lists anew is cheaper than removing the
+// disks.
 constexpr std::size_t disks_per_leaver = 8;
 // If a kick changes a larger share of the disks, predicting all of them takes no longer.
 constexpr double most_kicked_share = 0.5;
@@ -81,7 +82,7 @@ class ParallelExact final : public ExactFlights {
   State end_flight() override;
   double growth() const override { return allowed_growth_; }
   void visit_lists(const VisitList& visit) const override;
-  // Lists that are built from now on allow for this growth.
+  // Lists built from now on allow for this growth.
   void set_growth(double growth) {
     growth_ = growth;
     halos_.set_growth(growth);
@@ -121,14 +122,14 @@ class ParallelExact final : public ExactFlights {
   std::optional<WindowPlan> logged_;  // the last window, if its paths are known
   std::vector<unsigned char> gone_;
   Disks at_start_;  // the columns before disks left through sinks in the last window; else empty
-  // Their indices in these, the largest first, while they are known still: they are taken out when the next window
-  // starts, as frames of the last one need them.
+  // Their indices in at_start_, the largest first, until they are removed from lists and times: that is done when the
+  // next window starts, since frames of the last one need them.
   std::vector<std::size_t> leavers_;
-  std::vector<std::uint32_t> kicked_;  // by the last kick, where it was for some alone
+  std::vector<std::uint32_t> kicked_;  // by the last kick, if it changed only some disks
   std::vector<double> column_scratch_;
   std::vector<DiskId> id_scratch_;
-  double growth_ = 0.0;          // of flights, as ExactFlights says
-  double allowed_growth_ = 0.0;  // likewise, after a flight
+  double growth_ = 0.0;          // of flights (ExactFlights)
+  double allowed_growth_ = 0.0;  // growth() after a flight
 };
 
 // Sources emit, Brownian disks draw their velocities, and those that cross a sink within the interval are removed.
@@ -181,7 +182,7 @@ bool ParallelExact::edit(const Edit& edit) {
   return true;
 }
 
-// add() appends disks to the state. The lists of a single queue take them up; otherwise all lists are made anew.
+// add() appends disks to the state. The lists of a single queue can take them; otherwise all lists are made anew.
 template <class Add>
 void ParallelExact::add_disks(const Add& add) {
   const Disks& d = state_.disks;
@@ -199,7 +200,7 @@ void ParallelExact::add_disks(const Add& add) {
   }
 }
 
-// Makes the change in what is known of the disks; false where that is void, as parts are without one of their disks.
+// Applies the change to what is known of the disks; returns false if that becomes invalid, as parts do without a disk.
 bool ParallelExact::is_taken(const Edit& edit) {
   if (edit.kind == Edit::Kind::set_velocity) {
     const auto i = static_cast<std::uint32_t>(edit.index);
@@ -243,7 +244,7 @@ void ParallelExact::begin_brownian() {
   take_out_leavers();
 }
 
-// Takes marked disks out of the state; out of what is known of them when the next window starts, as leavers_ says.
+// Removes marked disks from the state, and from lists and times when the next window starts (leavers_).
 void ParallelExact::remove(const std::vector<unsigned char>& gone) {
   leavers_.clear();
   for (std::size_t i = gone.size(); i-- > 0;) {
@@ -272,8 +273,8 @@ void ParallelExact::take_out_leavers() {
 
 void ParallelExact::build_lists_if_due(const WindowPlan& plan, bool regions_allowed) {
   if (!windows_.lists_due(plan)) return;
-  // Regions take no changes: their lists are built anew. Where disks leave through sinks, that is once in a window of
-  // full length, and faster than one queue; each newcomer ends a window.
+  // Regions take no changes: their lists are built anew. If disks leave through sinks, that is once in a window of full
+  // length, and faster than one queue; but each newcomer ends a window.
   regions_allowed = regions_allowed && emission_rate(scene_, state_) * plan.meant < most_newcomers_of_regions;
   ListLayout layout = choose_layout(state_.disks.size(), scene_.box, regions_allowed, executor_);
   layout.growth = growth_;
@@ -308,7 +309,7 @@ bool ParallelExact::run_whole_with_retry(WindowPlan& plan, const SpeedSummary& s
   for (; outcome == SliceOutcome::too_fast || outcome == SliceOutcome::crowded; outcome = run()) {
     forget(Known::nothing);
     if (outcome == SliceOutcome::crowded) {
-      // Only a single queue processes events in canonical order, and can tell at which of them it was too many.
+      // Only a single queue processes events in canonical order, and knows at which of them there were too many.
       const WindowState& window = windows_.window();
       if (window.mode != EngineMode::regions) plan = shortened(plan, window.rules, windows_.scheduler().crowding());
       regions_allowed = false;
@@ -368,7 +369,7 @@ void ParallelExact::begin_flight(State state, double t_end, double growth, bool 
   if (parts_are_known()) halos_.take_radii();
 }
 
-// Regions do not list all that is near.
+// The lists of regions do not include all near disks.
 State ParallelExact::end_flight() {
   if (parts_are_known()) {
     allowed_growth_ = halos_.complete_lists() ? halos_.growth() : 0.0;

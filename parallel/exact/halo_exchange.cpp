@@ -1,5 +1,5 @@
-// The exchange between parts: after a slice the paths of ghosts; between windows, which disks become ghosts, and which
-// ghosts become own disks.
+// The exchange between parts: the paths of ghosts after a slice; between windows, the disks that become ghosts, and the
+// ghosts that become own disks.
 #include <algorithm>
 
 #include "core/base/same_bits.hpp"
@@ -53,7 +53,7 @@ void HaloPart::compare_with(const HaloParts& parts) {
       continue;
     const double depth = beyond_end(owner.run_.window().record[i].path);
     if (concerns) use_.deepest = std::max(use_.deepest, depth);
-    // It has come here, so that it concerns this part.
+    // It has come inside, so it concerns this part.
     if (depth < -inside_share * halo_) inside_.push_back(g);
     if (is_as_there) continue;
     agrees_ = agrees_ && !concerns;
@@ -76,8 +76,8 @@ bool HaloPart::goes_as_there(const Ghost& ghost, const HaloPart& owner) const {
          (window.thermal_hits.empty() || window.thermal_hits[g] == others.thermal_hits[i]);
 }
 
-// The version becomes a new one, so that no prediction made here with an earlier one is valid. The ghost may be faster
-// than all disks that are known here: then crossing events and images beyond the nearest one matter from now on.
+// The path gets a new version, so that no prediction made with an earlier one is valid. The ghost may be faster than
+// all disks of this part: then crossing events and images beyond the nearest one matter from now on.
 void HaloPart::replace_path(Ghost& ghost, const HaloPart& owner) {
   WindowState& window = run_.window();
   const WindowState& others = owner.run_.window();
@@ -100,7 +100,7 @@ double HaloPart::beyond_end(const PathSegment& path) const {
   return std::max(ends().x.beyond(p.x), ends().y.beyond(p.y));
 }
 
-// A disk that is across a period seems to be far outside, and is looked at as well.
+// A disk across a period seems to be far outside, and is checked as well.
 void HaloPart::find_offers(const Disks& all) {
   offers_.clear();
   const KnownBand& x = ends().x.between;
@@ -117,7 +117,7 @@ void HaloPart::find_offers(const Disks& all) {
   }
 }
 
-// Also asks anew whether the disk may come beyond an end.
+// Also checks anew whether the disk may come beyond an end.
 void HaloPart::offer(std::uint32_t place, Vec2 at) {
   const std::uint32_t i = own_[place];
   const auto steps = [this](const KnownBand& ends, double c) {
@@ -171,7 +171,7 @@ void HaloPart::take_over(const HaloParts& parts) {
 }
 
 // The bits of the parts that will have the disk as a ghost when it is this part's own: those that have it now, and its
-// owner. None where one of them is not next to this part, as it would not be told where the disk goes.
+// owner. None if one of them is not next to this part, since it would not learn of the disk's path.
 std::uint8_t HaloPart::known_once_owned(const Ghost& ghost, HaloPart& owner) {
   unsigned known = neighbours().bit_of(ghost.part);
   const unsigned known_there = owner.other_parts(owner.own_[ghost.place]).known_to;
@@ -214,7 +214,7 @@ void HaloPart::own_ghost(std::size_t number, const HaloParts& parts) {
   owner.run_.set_own(--owner.own_count_);
 }
 
-// The ghost whose owner was part `from`.
+// Finds the ghost whose owner was part `from`, and gives it its new owner.
 void HaloPart::change_owner(std::uint16_t from, std::uint32_t place, std::uint16_t to, std::uint32_t new_place) {
   const auto is_it = [&](const Ghost& ghost) { return ghost.part == from && ghost.place == place; };
   const auto ghost = std::find_if(ghosts_.begin(), ghosts_.end(), is_it);
