@@ -14,7 +14,8 @@
 
 namespace carom {
 
-// Coarse positions that are read at once; columns have so many entries more than disks, since those may be read.
+// The number of coarse positions that are read at once; columns have this many entries more than disks, since a read
+// may go beyond the last disk.
 inline constexpr std::uint32_t coarse_lanes = 8;
 
 // Columns have an entry for each disk, by storage index, and coarse_lanes more. A coordinate is rounded to a whole

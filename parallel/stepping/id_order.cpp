@@ -11,7 +11,7 @@ namespace carom {
 
 namespace {
 
-// About so many pairs in a bucket of first ids: few enough to be sorted in the first-level cache.
+// The approximate number of pairs in a bucket of first ids: few enough to be sorted in the first-level cache.
 constexpr std::size_t bucket_pairs = 32;
 // Parts of the list that are scattered in parallel; each has its own histogram.
 constexpr std::size_t slices = 16;

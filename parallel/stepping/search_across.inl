@@ -72,7 +72,7 @@ class AcrossSearch {
   }
 
  private:
-  // In so many units the sum of two radii has 15 bits.
+  // With at most this many units the sum of two radii has 15 bits.
   static constexpr double most_units = 0x1p14;
 
   // A disk in the coarse units of the other level; the same in all lanes.

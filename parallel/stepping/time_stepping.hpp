@@ -73,7 +73,7 @@ class TimeStepping : public Engine {
   std::vector<unsigned char> gone_;
   bool closed_up_ = false;                 // since the last search, disks marked in gone_ have been removed
   std::vector<double> block_values_;       // scratch, one a block
-  ShearedBlocks sheared_;                  // likewise, of a sheared box
+  ShearedBlocks sheared_;                  // scratch, for a sheared box
   std::vector<std::size_t> class_counts_;  // disks of each size class
   double smallest_radius_ = 0.0;           // 0: not known
   bool smallest_may_be_gone_ = false;      // a program has removed a disk
