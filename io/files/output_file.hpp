@@ -47,7 +47,7 @@ class OutputFile {
   std::uint64_t bytes_ = 0;
 };
 
-// Throws InputError unless path is a file of at least so many bytes (0: any existing path). Changes nothing.
+// Throws InputError unless path is a file of at least this number of bytes (0: any existing path). Changes nothing.
 void check_at_least(const std::string& path, std::uint64_t bytes);
 
 // Returns when a file that another library wrote, or the entries of a folder (new files, new names), are on the disk.

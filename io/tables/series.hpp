@@ -55,7 +55,7 @@ inline constexpr std::array<SeriesColumn, 18> series_columns{{
     {"force_bottom", false, "force", "likewise on the floor"},
     {"force_top", false, "force", "likewise on the ceiling"},
 }};
-inline constexpr const char* displacement_column = "displacement";  // behind them, where [analysis] asks for it
+inline constexpr const char* displacement_column = "displacement";  // behind them, if [analysis] asks for it
 // Then a column for each sink; its full name is this name, an underscore, and the sink's name.
 inline constexpr ColumnText taken_column{"removed_by", "", "disks that a sink has taken, since the start"};
 using SeriesRow = std::array<double, series_columns.size()>;  // counts are exact up to 2^53
@@ -100,7 +100,7 @@ class SeriesMeter {
 
 class SeriesWriter {
  public:
-  // Writes the heading. Throws RunError where the file cannot be written, here and below.
+  // Writes the heading. Throws RunError if the file cannot be written, as do all functions below.
   SeriesWriter(const std::string& path, const Scene& scene);
 
   // Continues an existing file after a mark; later rows are cut off. Throws InputError if the file is shorter or has

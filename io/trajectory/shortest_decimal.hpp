@@ -5,7 +5,7 @@
 
 namespace carom {
 
-// write_shortest may write so many characters, some of them beyond the end of the text.
+// write_shortest may write this number of characters, some of them beyond the end of the text.
 inline constexpr std::size_t shortest_decimal_bytes = 24;
 
 // Writes the same characters as std::to_chars(out, ..., value), in two fifths of its time if 1e-4 <= |value| < 1e7.

@@ -65,7 +65,7 @@ std::string number_text(double value) {
   return {buffer.data(), text.end()};
 }
 
-// Lines are made in blocks of so many, some hundreds of KB of text, so many blocks at the same time.
+// Lines are made in blocks of this number, some hundreds of KB of text, with several blocks at the same time.
 constexpr std::size_t lines_of_block = 4096;
 constexpr std::size_t blocks_at_once = 16;
 // Disks in a block when rows are filled.

@@ -20,18 +20,18 @@
 
 namespace carom {
 
-// What every line of a frame holds, as the second line of the frame declares it. The species is X, which chemistry has
-// for "no element"; z is 0, as programs for molecules want three coordinates.
+// The columns of every line of a frame, as declared in the frame's second line. The species is X, the symbol in
+// chemistry for "no element"; z is 0, since programs for molecules expect three coordinates.
 inline constexpr const char* xyz_properties = "species:S:1:pos:R:3:velo:R:3:radius:R:1:mass:R:1:id:I:1";
 
-// What a file shows, and of which disks.
+// The contents of a file, and the choice of disks.
 struct XyzPlan {
   Domain box;
   Selection select{};
-  // Of disks in several groups (disk_group.hpp): a column group:I:1 is added. Empty: all are of one.
+  // For disks in several groups (disk_group.hpp): a column group:I:1 is added. Empty if there is one group.
   std::vector<DiskId> group_ends{};
   // How often each disk has gone round the periodic sides: a column map_shift:I:3 is added, which OVITO takes for the
-  // periodic image. Kept by the caller; null: not known.
+  // periodic image. Updated by the caller; null: not known.
   const DisplacementTally* rounds = nullptr;
   bool spins = false;   // disks are rough: a column spin:R:1 is added, the angular velocity
   bool single = false;  // positions, velocities and spins in single precision
@@ -39,21 +39,21 @@ struct XyzPlan {
 
 class XyzWriter {
  public:
-  // Throws RunError where the file cannot be written, here and below.
+  // Throws RunError if the file cannot be written, as do all functions below.
   XyzWriter(const std::string& path, XyzPlan plan);
 
-  // Goes on behind a mark in a file that is there; what follows it is cut off. Throws InputError where the file is
+  // Continues an existing file after a mark; what follows the mark is cut off. Throws InputError if the file is
   // shorter.
   XyzWriter(const std::string& path, XyzPlan plan, const FileMark& from);
 
-  // One frame: the selected disks in order of id, numbers with as many digits as it takes to read them back. Throws
-  // InputError for a number that single precision does not reach.
+  // Writes one frame: the selected disks in order of id, with as many digits as are needed to read the same numbers
+  // back. Throws InputError for a number beyond single precision.
   void write(const DisksInPieces& disks, const BlockRunner& run = run_in_order);
   void write(const Disks& disks, double time, const BlockRunner& run = run_in_order) {
     write(WholeDisks(disks, time), run);
   }
 
-  // Where the file has come to; all up to there is on the disk.
+  // The present end of the file; everything before it is on the disk.
   FileMark mark();
 
   void close() { file_.close(); }
@@ -72,7 +72,7 @@ class XyzWriter {
     std::size_t bytes = 0;
   };
 
-  Count count_of(const DisksInPieces& disks) const;  // how many are selected
+  Count count_of(const DisksInPieces& disks) const;  // number of selected disks
   std::size_t number_rows(const Disks& disks);
   void fill_rows(const Disks& disks, const BlockRunner& run);
   void write_lines(const Disks& disks, std::size_t begin, std::size_t end, Lines& lines) const;
@@ -95,14 +95,14 @@ using XyzFrame = TrajectoryFrame;
 
 class XyzReader : public TrajectoryReader {
  public:
-  // growing: a run is, or was, writing the file, and a frame that it ends within is none. Throws InputError if the file
-  // cannot be opened.
+  // growing: a run is, or was, writing the file, and an incomplete frame at its end does not count. Throws InputError
+  // if the file cannot be opened.
   explicit XyzReader(const std::string& path, bool growing = false);
 
-  // The next frame, its disks in order of id, or false at the end of the file. Radius and mass always come as columns.
-  // Columns and lines may stand in any order, positions and velocities may have two components or three, and unknown
-  // columns are skipped. Throws InputError, "file:line: what is wrong, what was expected", for a file that lacks
-  // something, or whose box is not upright with a corner at 0.
+  // Reads the next frame, with disks in order of id; returns false at the end of the file. Radius and mass are always
+  // columns. Columns and lines may be in any order, positions and velocities may have two components or three, and
+  // unknown columns are skipped. Throws InputError, "file:line: what is wrong, what was expected", for a file that
+  // lacks something, or whose box is not upright with a corner at 0.
   bool read(XyzFrame& frame) override;
   bool skip() override;
   void follow(const std::string& path) override { path_ = path; }  // it stays open
@@ -114,7 +114,7 @@ class XyzReader : public TrajectoryReader {
   };
   struct Layout {
     Columns position, velocity, radius, mass, id, group, spin, image;
-    std::size_t all = 0;  // how many a line has
+    std::size_t all = 0;  // number of columns in a line
   };
   struct Property;
 
@@ -142,7 +142,7 @@ class XyzReader : public TrajectoryReader {
   std::string line_;
   std::size_t line_number_ = 0;
   Layout layout_;
-  std::string properties_;  // that the layout was read from
+  std::string properties_;  // from which the layout was read
 };
 
 }  // namespace carom
