@@ -94,7 +94,7 @@ class RunOutputs {
   bool doubt_told_ = false;
   std::unique_ptr<XyzWriter> trajectory_;
   std::unique_ptr<H5mdWriter> h5md_;
-  SeriesMeter meter_;  // for trajectory.h5 and energy.svg where there is no series.csv
+  SeriesMeter meter_;  // for trajectory.h5 and energy.svg if there is no series.csv
   std::unique_ptr<SeriesWriter> series_;
   std::unique_ptr<RunningAnalysis> analysis_;
   std::unique_ptr<MovieWriter> movie_;  // from the first frame on, which sets its colour scale
