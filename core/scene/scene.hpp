@@ -45,7 +45,7 @@ struct StartRegion {
   bool circle = false;
   Vec2 low, high;       // corners of the rectangle, or of the square around a circle
   Vec2 centre;          // of a circle
-  double radius = 0.0;  // likewise; length
+  double radius = 0.0;  // of a circle; length
 };
 
 struct PositionLaw {
@@ -248,7 +248,7 @@ struct AnalysisPlan {
   double density_every = 0.0;    // simulated time of a row of the profile; 0: one profile for the whole run
   bool profile_along_x = false;  // profiles of velocity and temperature; else along y
   Count profile_bins = 0;
-  double profile_every = 0.0;  // likewise
+  double profile_every = 0.0;  // simulated time of a row of these profiles; 0: one for the whole run
   Count wave_numbers = 0;      // of the structure factor, along each periodic axis
 
   bool wants(Quantity q) const { return wanted[static_cast<std::size_t>(q)]; }
