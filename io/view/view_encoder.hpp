@@ -23,7 +23,7 @@ struct ViewDisks {
 class ViewEncoder {
  public:
   // every: only disks whose id is a multiple of it are shown. at_once: the number of blocks that run distributes
-  // together, equal to the number of threads; neither of these two changes a byte. shear: of the box.
+  // together, equal to the number of threads. at_once and run change no byte. shear: of the box.
   ViewEncoder(const ViewAxes& axes, DiskId every, std::size_t at_once = 1, BlockRunner run = run_in_order,
               const Shear& shear = {});
 

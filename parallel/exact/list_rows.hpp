@@ -74,8 +74,8 @@ class ListRows {
     return within;
   }
 
-  // Between windows: append adds a disk, the last one, with an empty list; the next function removes the last disk,
-  // whose list is empty and which no other disk lists.
+  // Between windows: append adds a disk, the last one, with an empty list; drop_last removes the last disk, whose
+  // list must be empty and which no other disk may list.
   void append(FixedPointPosition listed_at) {
     rows_.emplace_back();
     rows_.back().listed_at = listed_at;

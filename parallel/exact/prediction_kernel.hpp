@@ -84,7 +84,7 @@ struct FirstContact {
   static constexpr std::uint32_t leaving_bit = 1U << 31;
 
   // For a row: at the time of contact the disk is further than the relist distance from its listed position; if its
-  // path is bent, this may be so only before.
+  // path is bent, possibly only before that time.
   bool leaves_list() const { return (neighbour & leaving_bit) != 0; }
   // The kernel cannot decide: two neighbours are touched at the same time, or a neighbour is approached slowly, or
   // passed so near to the contact distance that rounding decides whether it is touched.

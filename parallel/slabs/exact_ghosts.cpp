@@ -13,8 +13,8 @@ namespace carom {
 
 namespace {
 
-// New ghosts are due when disks that this rank does not have have come nearer than this share of the depth, or one of
-// the rank's own has left its slab by that share of it.
+// New ghosts are due when disks that this rank does not have have come nearer than least_share_left of the depth, or
+// one of the rank's own has left its slab by excursion_share of the depth.
 constexpr double least_share_left = 0.7;
 constexpr double excursion_share = 0.1;
 // Disks that this rank does not have are assumed to come nearer by at least the flight of the fastest disk in this
