@@ -33,6 +33,24 @@ void resize_in_huge_pages(std::vector<T>& v, std::size_t n, const T& value = T{}
   v.resize(n, value);
 }
 
+// v.resize(n). If v allocates, the new memory is in huge pages.
+template <class T>
+void grow_in_huge_pages(std::vector<T>& v, std::size_t n) {
+  if (v.capacity() < n) reserve_in_huge_pages(v, n);
+  v.resize(n);
+}
+
+// Moves the entries of v to huge pages, if they fill several.
+template <class T>
+void move_to_huge_pages(std::vector<T>& v) {
+  constexpr std::size_t several = std::size_t{1} << 23;
+  if (v.size() * sizeof(T) < several) return;
+  std::vector<T> moved;
+  reserve_in_huge_pages(moved, v.size());
+  moved.assign(v.begin(), v.end());
+  v.swap(moved);
+}
+
 // Gives the whole pages among v[begin] to v[end - 1] back to the system; an entry there is afterwards zero or
 // unchanged.
 template <class T>

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/base/huge_pages.hpp"
 #include "core/disks/disk_columns.hpp"
 
 namespace carom {
@@ -88,7 +89,7 @@ void sort_buckets(const Executor& executor, Buckets buckets, std::uint32_t keys,
 template <class T>
 void move_column(std::vector<T>& column, std::vector<T>& scratch, const std::vector<std::uint32_t>& order,
                  const Executor& executor) {
-  scratch.resize(column.size());
+  grow_in_huge_pages(scratch, column.size());
   executor.for_ranges(column.size(), pass_block, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) scratch[k] = column[order[k]];
   });
@@ -99,9 +100,9 @@ void move_column(std::vector<T>& column, std::vector<T>& scratch, const std::vec
 
 void sort_into_cells(Disks& d, const CellGrid& grid, const Executor& executor, SortedCells& cells) {
   const std::size_t n = d.size();
-  cells.key.resize(n);
-  cells.order.resize(n);
-  cells.pass.resize(n);
+  grow_in_huge_pages(cells.key, n);
+  grow_in_huge_pages(cells.order, n);
+  grow_in_huge_pages(cells.pass, n);
   cells.start.resize(grid.keys + std::size_t{1});
   if (n == 0) {
     std::fill(cells.start.begin(), cells.start.end(), 0U);

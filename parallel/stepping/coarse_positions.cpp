@@ -1,5 +1,7 @@
 #include "parallel/stepping/coarse_positions.hpp"
 
+#include "core/base/huge_pages.hpp"
+
 namespace carom {
 
 namespace {
@@ -10,7 +12,7 @@ constexpr std::size_t pass_block = 16384;
 // Each disk's radius in units of its level.
 void note_radii(const Disks& d, const Executor& executor, CellList& cells) {
   CoarsePositions& coarse = cells.coarse;
-  coarse.radius.resize(d.size() + coarse_lanes);
+  grow_in_huge_pages(coarse.radius, d.size() + coarse_lanes);
   for (const GridLevel& level : cells.grid.levels) {
     const LevelRange range = range_of(level, cells.sorted);
     const double per_unit = 1.0 / coarse_unit(level);
@@ -54,7 +56,7 @@ void find_long_runs(const Executor& executor, CellList& cells) {
 
 void begin_coarse_positions(const Disks& d, const Executor& executor, CellList& cells) {
   CoarsePositions& coarse = cells.coarse;
-  coarse.position.resize(d.size() + coarse_lanes);
+  grow_in_huge_pages(coarse.position, d.size() + coarse_lanes);
   coarse.current = false;
   coarse.loose.clear();
   coarse.radius.clear();

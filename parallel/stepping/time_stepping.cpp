@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/huge_pages.hpp"
+#include "core/disks/disk_columns.hpp"
 #include "core/step/source.hpp"
 #include "core/step/step_clock.hpp"
 #include "core/step/step_start.hpp"
@@ -30,7 +32,9 @@ TimeStepping::TimeStepping(const Scene& scene, State initial, const Threads& thr
     : scene_(scene),
       state_(std::move(initial)),
       obstacles_(place_run_obstacles(scene_, state_)),
-      executor_(threads.count, threads.block_divisor) {}
+      executor_(threads.count, threads.block_divisor) {
+  for_each_column(state_.disks, [](auto& column) { move_to_huge_pages(column); });
+}
 
 double TimeStepping::disks_at(double /*t*/, Disks& out) const {
   out = state_.disks;

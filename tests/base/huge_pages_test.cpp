@@ -26,6 +26,32 @@ TEST(HugePages, ResizeFillsWithTheValue) {
   EXPECT_GE(v.capacity(), 2 * many);
 }
 
+TEST(HugePages, GrowKeepsTheEntries) {
+  std::vector<double> v{1.0, 2.0};
+  grow_in_huge_pages(v, many);
+  ASSERT_EQ(v.size(), many);
+  EXPECT_EQ(v[1], 2.0);
+  EXPECT_EQ(v.back(), 0.0);
+  const double* const there = v.data();
+  grow_in_huge_pages(v, 2);
+  grow_in_huge_pages(v, many);
+  EXPECT_EQ(v.data(), there) << "there was room";
+}
+
+// A long array goes to other memory with its entries, a short one stays.
+TEST(HugePages, MoveKeepsTheEntries) {
+  std::vector<double> v(4 * many + 1, 7.0), few{1.0, 2.0};
+  v[many] = 8.0;
+  const std::vector<double> copy = v;
+  const double* const there = v.data();
+  const double* const few_there = few.data();
+  move_to_huge_pages(v);
+  move_to_huge_pages(few);
+  EXPECT_EQ(v, copy);
+  EXPECT_NE(v.data(), there);
+  EXPECT_EQ(few.data(), few_there);
+}
+
 // Freed memory reads as zero, page by page; other memory is unchanged.
 TEST(HugePages, GiveBackWholePagesOfAPartOnly) {
   std::vector<std::uint64_t> v(many, 7);
