@@ -43,8 +43,8 @@ std::string step_text(const Scene& scene, const Findings& f) {
     const std::string at_start = std::isinf(f.steps.at_start) ? "any" : fmt::format("{:.3g}", f.steps.at_start);
     text += fmt::format(": {} at the speeds of the start, {:.3g} ", at_start, f.steps.later);
     text += f.steps.landing_speed > 0.0 ? fmt::format("after falling (speed {:.3g})", f.steps.landing_speed)
-            : f.steps.driven            ? "at those that walls or a thermostat give"
-                                        : "at those of sources";
+            : f.steps.driven            ? "at the speeds that walls or a thermostat give"
+                                        : "at the speeds of disks from sources";
   } else {
     text += scene.physics.diffusion > 0.0 ? " for Brownian motion" : " at the speeds of the start";
   }
@@ -63,14 +63,14 @@ std::string disks_text(const Scene& scene, const Findings& f) {
   for (const DiskGroup& group : scene.groups) fixed += group.fixed ? group.count : 0;
   if (fixed > 0) text += fmt::format("; {} fixed", fixed);
   if (f.population.end > f.population.start) {
-    text += fmt::format("; with what sources emit up to {:.0f} at t = {:g}", f.population.end, scene.run.t_end);
+    text += fmt::format("; with those from sources up to {:.0f} at t = {:g}", f.population.end, scene.run.t_end);
   }
   return text;
 }
 
 std::string outputs_text(const Scene& scene, const Findings& f) {
   const OutputForesight& o = f.outputs;
-  if (o.files.empty()) return "none asked for";
+  if (o.files.empty()) return "none";
   std::vector<std::string> files;
   for (const auto& [name, bytes] : o.files) files.push_back(fmt::format("{} {}B", name, short_number(bytes)));
   std::string text;
@@ -78,7 +78,7 @@ std::string outputs_text(const Scene& scene, const Findings& f) {
   if (o.samples > 0) text += (text.empty() ? "" : ", ") + counted(o.samples, "sample");
   text +=
       fmt::format("{}{}; about {}B in all", text.empty() ? "" : ": ", fmt::join(files, ", "), short_number(o.bytes()));
-  if (has_sinks(scene)) text += ", less as sinks take disks away";
+  if (has_sinks(scene)) text += ", less if sinks remove disks";
   return o.not_tried.empty() ? text : text + fmt::format(" (guessed: {})", o.not_tried);
 }
 
@@ -94,11 +94,11 @@ std::string cost_text(const Scene& scene, const Findings& f) {
   part("frames and movie", f.outputs.files_s);
   part("analysis", f.outputs.analysis_s);
   part("plots", f.outputs.plots_s);
-  if (has_sinks(scene) && f.population.end > f.population.start) text += "; less as sinks take disks away";
+  if (has_sinks(scene) && f.population.end > f.population.start) text += "; less if sinks remove disks";
   // The trial includes only the fall of the disks.
   if (!settles(scene)) return text;
   if (scene.run.method == Method::pairwise) {
-    text += "; once disks lie in a pile, a step takes 5 to 50 times as long, the longer the taller it is";
+    text += "; once disks lie in a pile, a step takes 5 to 50 times as long, most in a tall pile";
   } else if (const std::optional<double> tc = scene.physics.collapse_contact_time) {
     const double each = 0.5 * rates::pile_collisions / *tc;
     text += fmt::format(
@@ -138,37 +138,38 @@ Json ranks_json(const Told& t) {
 std::string ranks_text(const RankForesight& r) {
   if (!r.alone.empty()) return fmt::format("{}, of which one runs all disks: {}", r.ranks, r.alone);
   const std::string tried = r.traffic.ranks < r.ranks ? fmt::format(", from a trial on {}", r.traffic.ranks) : "";
-  return fmt::format("{} with about {:.0f} disks each: {}B of memory, the first {}B; {:.1f} messages with {}B a step{}",
-                     r.ranks, r.disks, short_number(r.other_bytes), short_number(r.first_bytes), r.traffic.messages,
-                     short_number(r.traffic.bytes), tried);
+  return fmt::format(
+      "{} with about {:.0f} disks each: {}B of memory, {}B on the first; {:.1f} messages with {}B per step{}", r.ranks,
+      r.disks, short_number(r.other_bytes), short_number(r.first_bytes), r.traffic.messages,
+      short_number(r.traffic.bytes), tried);
 }
 
 // For a new key, add a row here.
 const JsonKey<Told> check_keys[] = {
-    {"scene", "", "the scene's file", [](const Told& t) -> Json { return t.scene.file; }},
+    {"scene", "", "file of the scene", [](const Told& t) -> Json { return t.scene.file; }},
     {"method", "", "`rollback`, `pairwise` or `exact`",
      [](const Told& t) -> Json { return name_of(t.scene.run.method); }},
     {"particles", "", "disks at the start", [](const Told& t) -> Json { return t.found.disks; }},
-    {"particles_at_end", "", "disks at the end with what sources emit; fewer where sinks take some",
+    {"particles_at_end", "", "disks at the end, with those from sources; sinks make it fewer",
      [](const Told& t) -> Json { return t.found.population.end; }},
-    {"width", "length", "of the box", [](const Told& t) -> Json { return t.scene.box.width; }},
-    {"height", "length", "of the box", [](const Told& t) -> Json { return t.scene.box.height; }},
-    {"packing_fraction", "", "at the start",
+    {"width", "length", "width of the box", [](const Told& t) -> Json { return t.scene.box.width; }},
+    {"height", "length", "height of the box", [](const Told& t) -> Json { return t.scene.box.height; }},
+    {"packing_fraction", "", "packing fraction at the start",
      [](const Told& t) -> Json { return json_number(t.found.packing_fraction); }},
-    {"dt", "time", "the step; 0 where the scene gives none", [](const Told& t) -> Json { return t.scene.run.dt; }},
+    {"dt", "time", "the time step; 0 if the scene has none", [](const Told& t) -> Json { return t.scene.run.dt; }},
     {"safe_dt", "time",
-     "the longest step that time stepping does not split, with `exact` and Brownian motion the longest between two "
-     "draws; null if any is",
+     "the longest step that time stepping does not split; with `exact` and Brownian motion, the longest time between "
+     "two draws; null if any step is safe",
      [](const Told& t) -> Json { return json_number(t.found.steps.safe()); }},
-    {"landing_speed", "length / time", "the largest after a fall; 0 without gravity",
+    {"landing_speed", "length / time", "largest speed after a fall; 0 without gravity",
      [](const Told& t) -> Json { return json_number(t.found.steps.landing_speed); }},
-    {"t_end", "time", "the end of the run", [](const Told& t) -> Json { return t.scene.run.t_end; }},
-    {"frames", "", "frames that a run makes", [](const Told& t) -> Json { return t.found.outputs.frames; }},
-    {"memory_bytes", "bytes", "of a run, with ffmpeg's for its movie",
+    {"t_end", "time", "time at the end of the run", [](const Told& t) -> Json { return t.scene.run.t_end; }},
+    {"frames", "", "frames of the run", [](const Told& t) -> Json { return t.found.outputs.frames; }},
+    {"memory_bytes", "bytes", "memory of the run, with that of ffmpeg for its movie",
      [](const Told& t) -> Json { return t.found.memory_bytes; }},
-    {"cost_s", "s", "wall time of a run on this machine, null if unknown",
+    {"cost_s", "s", "wall time of the run on this machine; null if unknown",
      [](const Told& t) -> Json { return json_number(t.found.seconds()); }},
-    {"cost_parts_s", "s", "an object: the same in parts, `start`, `steps`, `frames`, `analysis`, `plots`",
+    {"cost_parts_s", "s", "an object with the parts of this time: `start`, `steps`, `frames`, `analysis`, `plots`",
      [](const Told& t) -> Json {
        return Json{{"start", t.found.start_seconds},
                    {"steps", json_number(t.found.step_seconds)},
@@ -176,20 +177,16 @@ const JsonKey<Told> check_keys[] = {
                    {"analysis", t.found.outputs.analysis_s},
                    {"plots", t.found.outputs.plots_s}};
      }},
-    {"files_bytes", "bytes", "an object: the size of each file",
+    {"files_bytes", "bytes", "an object with the size of each file",
      [](const Told& t) -> Json { return file_sizes(t.found.outputs); }},
-    {"collapse_expected", "", "whether inelastic collapse is to be expected",
+    {"collapse_expected", "", "true if inelastic collapse is expected",
      [](const Told& t) -> Json { return t.found.collapse.expected; }},
-    {"troubles", "", "what will go wrong in a run, a list of texts",
+    {"troubles", "", "a list of texts: what will go wrong in the run",
      [](const Told& t) -> Json { return t.found.troubles; }},
-    {"growth_s", "s", "only where disks grow: processor time of that",
+    {"growth_s", "s", "only with `positions = \"growth\"`: processor time of the growth",
      [](const Told& t) -> Json { return t.found.growth_seconds > 0.0 ? Json(t.found.growth_seconds) : absent(); }},
-    {"ranks", "",
-     "only with `--ranks`, an object: their `count`, `disks` of each, `memory_bytes` of each but the first, "
-     "`first_memory_bytes` of that, and the `messages` and `bytes` that each sends in a step, from a trial on `tried` "
-     "ranks, three at most; where the first runs all disks, why, as `alone`",
-     [](const Told& t) -> Json { return ranks_json(t); }},
-    {"choice", "", "only with `--accuracy`: an object with the method and step that it needs, and all `offers`",
+    {"ranks", "", "only with `--ranks`: an object, see below", [](const Told& t) -> Json { return ranks_json(t); }},
+    {"choice", "", "only with `--accuracy`: an object with the chosen method and step, and all `offers`",
      [](const Told& t) -> Json { return t.accuracy ? offers_json(t.scene, *t.accuracy) : absent(); }},
 };
 
@@ -199,7 +196,7 @@ std::string memory_text(const Findings& f, bool tried) {
   if (!tried) return fmt::format("at least {}B", bytes);
   const bool sources = f.population.end > f.population.start;
   const double movie = f.outputs.ffmpeg_bytes;
-  return fmt::format("about {}B, as measured{}{}", bytes, sources ? ", with what sources add" : "",
+  return fmt::format("about {}B, as measured{}{}", bytes, sources ? ", with disks from sources" : "",
                      movie > 0.0 ? fmt::format(", {}B of it for ffmpeg", short_number(movie)) : "");
 }
 
@@ -224,7 +221,7 @@ std::string main_text(const Scene& scene, const Findings& f) {
   }
   line("memory", memory_text(f, tried));
   if (f.ranks) line("ranks", ranks_text(*f.ranks));
-  line("cost", tried ? cost_text(scene, f) : "not tried either");
+  line("cost", tried ? cost_text(scene, f) : "unknown, as the growth was not tried");
   for (const std::string& trouble : f.troubles) line("trouble", trouble);
   return text;
 }
@@ -232,7 +229,7 @@ std::string main_text(const Scene& scene, const Findings& f) {
 }  // namespace
 
 std::string check_text(const Scene& scene, const Findings& found, const std::optional<double>& accuracy) {
-  const std::string hint = "  --accuracy 1e-3 says which method and dt that needs\n";
+  const std::string hint = "  --accuracy 1e-3 finds the method and dt for that error\n";
   return main_text(scene, found) + (accuracy ? offers_text(scene, *accuracy) : hint);
 }
 
@@ -242,6 +239,17 @@ std::string check_json(const Scene& scene, const Findings& found, const std::opt
 
 std::vector<KeyText> check_key_texts() {
   return key_texts(check_keys);
+}
+
+std::vector<KeyText> check_rank_key_texts() {
+  return {{"count", "", "number of ranks"},
+          {"disks", "", "disks of each rank"},
+          {"first_memory_bytes", "bytes", "memory of the first rank"},
+          {"memory_bytes", "bytes", "memory of each other rank"},
+          {"messages", "", "messages that a rank sends in a step"},
+          {"bytes", "bytes", "data that a rank sends in a step"},
+          {"tried", "", "ranks of the trial that measured the last two, at most three"},
+          {"alone", "", "only if the first rank runs all disks: the reason"}};
 }
 
 }  // namespace carom

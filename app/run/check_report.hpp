@@ -40,5 +40,6 @@ std::string check_json(const Scene& scene, const Findings& found, const std::opt
 
 // The texts of docs/scene.md about the keys of that object.
 std::vector<KeyText> check_key_texts();
+std::vector<KeyText> check_rank_key_texts();  // of the object `ranks`
 
 }  // namespace carom

@@ -60,7 +60,7 @@ Json summary_in(const std::string& name) {
   if (!file) return nullptr;
   Json summary = Json::parse(file, nullptr, false);
   if (summary.is_object()) return summary;
-  fail_input(name + "/summary.json", summary.is_discarded() ? "is no JSON" : "is no object of keys",
+  fail_input(name + "/summary.json", summary.is_discarded() ? "is not JSON" : "is not a JSON object",
              "expected the summary of a run");
 }
 
@@ -72,7 +72,7 @@ Output open_output(const std::string& name) {
   if (output.trajectory.empty() && output.summary.is_null()) {
     if (fs::exists(fs::path(name) / unfinished_name, error)) {
       fail_input(name, "holds a run that is not finished",
-                 fmt::format("expected a finished one (carom resume {}), or a trajectory in {}", shell_word(name),
+                 fmt::format("expected a finished run (carom resume {}), or a trajectory in {}", shell_word(name),
                              (fs::path(name) / unfinished_name).string()));
     }
     fail_input(name, "holds neither trajectory.xyz, trajectory.h5 nor summary.json", "expected a folder of a run");
@@ -133,7 +133,8 @@ std::string text_of(const TrajectoryDifference& d) {
   std::string text = fmt::format("different: first in {}\n", text_of(*d.first)) + largest_text(d);
   if (are_of_other_times(d)) {
     text +=
-        "  Frames go by their order, and from that one on they are of other times: --times or --at compares some.\n";
+        "  Frames are compared in their order, and from this one on their times differ: --times or --at selects "
+        "frames.\n";
   }
   if (d.frames_a != d.frames_b) text += fmt::format("  frames  {} against {}\n", d.frames_a, d.frames_b);
   return text;
@@ -180,23 +181,25 @@ Json largest_json(const TrajectoryDifference& d) {
 
 // For a new key, add a row here.
 const JsonKey<Comparison> compare_keys[] = {
-    {"same", "", "true or false", [](const Comparison& c) -> Json { return c.same; }},
+    {"same", "", "true if the outputs are the same", [](const Comparison& c) -> Json { return c.same; }},
     {"different_keys", "", "keys of the two summaries that differ", [](const Comparison& c) -> Json { return c.keys; }},
-    {"tolerance", "", "only with `--tolerance`, `--fields`, `--times` or `--at`: null where bits count",
+    {"tolerance", "",
+     "only with `--tolerance`, `--fields`, `--times` or `--at`: the tolerance, or null if the bits are compared",
      [](const Comparison& c) -> Json {
        if (!c.rule) return absent();
        return c.rule->tolerance ? Json(*c.rule->tolerance) : Json(nullptr);
      }},
-    {"frames", "", "only of trajectories: how many frames each has",
+    {"frames", "", "only for trajectories: a list of the numbers of frames",
      [](const Comparison& c) -> Json {
        return c.frames ? Json{c.frames->frames_a, c.frames->frames_b} : absent();
      }},
-    {"first", "", "only of trajectories: the first difference (frame, time, disk, quantity, a, b, by), or null",
+    {"first", "",
+     "only for trajectories: the first difference (`frame`, `time`, `disk`, `quantity`, `a`, `b`, `by`), or null",
      [](const Comparison& c) -> Json {
        if (!c.frames) return absent();
        return c.frames->first ? json_of(*c.frames->first) : Json(nullptr);
      }},
-    {"largest", "", "only of trajectories: the largest difference of each quantity that differs",
+    {"largest", "", "only for trajectories: an object with the largest difference of each quantity that differs",
      [](const Comparison& c) -> Json { return c.frames ? largest_json(*c.frames) : absent(); }},
 };
 
@@ -209,7 +212,7 @@ int compare(const CompareOptions& options) {
   }
   if (options.rule && !both_trajectories) {
     fail_input((a.trajectory.empty() ? a : b).name, "holds no trajectory",
-               "expected one: --tolerance, --fields, --times and --at compare trajectories");
+               "expected a trajectory: --tolerance, --fields, --times and --at compare trajectories");
   }
   std::optional<TrajectoryDifference> frames;
   if (both_trajectories) {

@@ -16,10 +16,11 @@ namespace {
 constexpr std::string_view beginning =
     R"(# The scene file
 
-Made by `carom docs scene` from the tables that read scenes and write results; not edited by hand.
+`carom docs scene` prints this page, from the tables that read scenes and write results. Do not edit it by hand.
 
-A scene is a [TOML](https://toml.io) file: a title and a seed, tables (`[box]`), and lists of tables (`[[disks]]`). A key that is not on this page is an error, never ignored. No unit is built in: lengths, times and masses are
-the scene's own, and all else follows from them (k_B = 1). Any key can be set on the command line, as in `--set
+A scene is a [TOML](https://toml.io) file with a title and a seed, tables (`[box]`), and lists of tables (`[[disks]]`).
+A key that is not on this page is an error; it is never ignored. No unit is built in: choose the units of length, time
+and mass, and all others follow from them (k_B = 1). Any key can be set on the command line, as in `--set
 physics.gravity=0.5` or `--set disks.0.count=100`. The smallest scene:
 
 ```toml
@@ -84,8 +85,7 @@ std::string initial_text(std::string_view initial) {
 }
 
 std::string key_rows(std::string_view table) {
-  std::string text =
-      "| key | what it may be | unit | default | what it is | example |\n| --- | --- | --- | --- | --- | --- |\n";
+  std::string text = "| key | values | unit | default | meaning | example |\n| --- | --- | --- | --- | --- | --- |\n";
   for (const SceneKey& key : scene_keys()) {
     if (key.table != table) continue;
     text += fmt::format("| `{}` | {} | {} | {} | {} | `{}` |\n", key.name, allowed_text(key),
@@ -96,44 +96,45 @@ std::string key_rows(std::string_view table) {
 
 std::string range_rows() {
   std::string text =
-      "\n## Ranges\n\nNumbers that would overflow or vanish in the formulas are refused. 0 is allowed where a key "
+      "\n## Ranges\n\nNumbers that would overflow or vanish in the formulas are refused. 0 is allowed if the key "
       "allows it.\n\n| what | unit | from | to | why |\n| --- | --- | --- | --- | --- |\n";
   for (const Magnitudes& m : magnitudes) {
     if (m.dimension == Dimension::none) continue;
     text += fmt::format("| {} | {} | {} | {} | {} |\n", m.noun, m.unit, m.least, m.most, m.why);
   }
-  text += "\nAgainst each other:\n\n| what | at most | why |\n| --- | --- | --- |\n";
+  text += "\nRatios and products are bounded, too:\n\n| what | at most | why |\n| --- | --- | --- |\n";
   for (const Proportion& p : proportions) text += fmt::format("| {} | {:g} | {} |\n", p.what, p.most, p.why);
   return text;
 }
 
 std::string series_rows() {
   std::string text =
-      "\n## Columns of series.csv\n\n`series = true` in `[output]` writes one row a frame; trajectory.h5 has the same "
-      "under `/observables`, without `displacement`, what each sink took, heat and work of sides, what inner walls "
-      "and a thermostat give, and what there is only with `shear_rate`. Numbers have all digits that they need to be "
-      "read back as they were. The state of a row is that of its time; what is counted or summed since the start, and "
-      "means since the row before, are up to the end of the step or window that this time lies in, with `exact` about "
-      "two collisions a disk later at most (32 in all where disks are few); rows within one window of it repeat the "
-      "means. So their plain average over such rows is not that over time: take rows further apart than windows are "
-      "long, or `[analysis]`, which counts pressure and collision rate by the length of intervals.\n\n"
-      "| column | unit | what it is |\n| --- | --- | --- |\n| `t` | time | simulated time |\n";
+      "\n## Columns of series.csv\n\n`series = true` in `[output]` writes one row for each frame.\n\n- Numbers have "
+      "all the digits that are needed to read them back unchanged.\n- trajectory.h5 has the same quantities under "
+      "`/observables`, except for `displacement`, the disks removed by each sink, heat and work of sides, inner walls "
+      "and a thermostat, and the quantities of a shear flow.\n- The state in a row is the state at its time. Counts "
+      "and sums since the start, and means since the row before, extend to the end of the step or window that contains "
+      "this time. With `exact` that is later by at most about two collisions of each disk (32 in all if there are few "
+      "disks).\n- Rows within one window of `exact` repeat the means. The plain average of such rows is not the "
+      "average over time. For averages, take rows further apart than the length of a window, or use `[analysis]`, "
+      "which weights pressure and collision rate by the length of the intervals.\n\n| column | unit | meaning |\n| --- "
+      "| --- | --- |\n| `t` | time | simulated time |\n";
   for (const SeriesColumn& column : series_columns) {
     text += fmt::format("| `{}` | {} | {} |\n", column.name, column.unit, column.meaning);
   }
   text += fmt::format(
-      "| `{}` | length^2 | mean square displacement since the first sample, where `[analysis]` asks for it |\n",
+      "| `{}` | length^2 | mean square displacement since the first sample; only if `[analysis]` measures it |\n",
       displacement_column);
-  text += fmt::format("| `{}_left`, likewise of other sides, and `{}_walls.0`, ... | {} | {}; a column a sink |\n",
-                      taken_column.name, taken_column.name, taken_column.unit, taken_column.meaning);
-  text += fmt::format("| `{}_left`, likewise `_right`, `_bottom`, `_top` | {} | {}; a column a thermal side |\n",
-                      heat_column.name, heat_column.unit, heat_column.meaning);
-  text += fmt::format("| `{}_left`, likewise | {} | {}; a column a side that moves |\n", work_column.name,
+  text += fmt::format("| `{}_left`, ..., `{}_walls.0`, ... | {} | {}; one column for each sink |\n", taken_column.name,
+                      taken_column.name, taken_column.unit, taken_column.meaning);
+  text += fmt::format("| `{}_left`, ... | {} | {}; one column for each thermal side |\n", heat_column.name,
+                      heat_column.unit, heat_column.meaning);
+  text += fmt::format("| `{}_left`, ... | {} | {}; one column for each moving side |\n", work_column.name,
                       work_column.unit, work_column.meaning);
   for (const ColumnText& column : wall_columns) {
     text += fmt::format("| `{}` | {} | {}; only with such walls |\n", column.name, column.unit, column.meaning);
   }
-  text += fmt::format("| `{}` | {} | {}; only with one |\n", thermostat_column.name, thermostat_column.unit,
+  text += fmt::format("| `{}` | {} | {}; only with a thermostat |\n", thermostat_column.name, thermostat_column.unit,
                       thermostat_column.meaning);
   for (const ColumnText& column : rotation_columns) {
     text += fmt::format("| `{}` | {} | {} |\n", column.name, column.unit, column.meaning);
@@ -142,9 +143,9 @@ std::string series_rows() {
     text += fmt::format("| `{}` | {} | {}; only with `shear_rate` |\n", column.name, column.unit, column.meaning);
   }
   text +=
-      "\nThen, for each `[[disks]]` block with a `name`, and beside such blocks for `sources` if there are any, "
-      "these with `_` and the name behind, as in `temperature_tracer`:\n\n| column | unit | what it is |\n| --- | --- "
-      "| --- |\n";
+      "\nThen follow these columns for each `[[disks]]` block with a `name`; if there is one, also for `sources`, if "
+      "the scene has any. The name of the group is appended, as in `temperature_tracer`:\n\n| column | unit | meaning "
+      "|\n| --- | --- | --- |\n";
   for (const GroupColumn& column : group_column_kinds()) {
     text += fmt::format("| `{}_` | {} | {} |\n", column.name, column.unit, column.meaning);
   }
@@ -152,20 +153,21 @@ std::string series_rows() {
 }
 
 std::string json_rows(std::string_view heading, std::string_view meaning, const std::vector<KeyText>& keys) {
-  std::string text =
-      fmt::format("\n## {}\n\n{}\n\n| key | unit | what it is |\n| --- | --- | --- |\n", heading, meaning);
+  std::string text = fmt::format("\n{}\n\n{}\n\n| key | unit | meaning |\n| --- | --- | --- |\n", heading, meaning);
   for (const KeyText& key : keys) text += fmt::format("| `{}` | {} | {} |\n", key.name, key.unit, key.meaning);
   return text;
 }
 
 std::string json_sections() {
-  return json_rows(
-             "Keys of `run --json` and summary.json",
-             "`carom run --json` and `carom resume --json` print one object, and nothing else on standard output; "
-             "summary.json in the results is the same. A number that is not finite is null.",
-             summary_key_texts()) +
-         json_rows("Keys of `check --json`", "What is predicted, without a run.", check_key_texts()) +
-         json_rows("Keys of `compare --json`", "Two outputs against each other.", compare_key_texts());
+  return json_rows("## Keys of `run --json` and summary.json",
+                   "`carom run --json` and `carom resume --json` print one object, and nothing else on standard "
+                   "output. summary.json in the results is the same object. A number that is not finite is null.",
+                   summary_key_texts()) +
+         json_rows("### The object `traffic`", "Only with several ranks.", traffic_key_texts()) +
+         json_rows("## Keys of `check --json`",
+                   "The predictions of `carom check`, which does not run the scene to its end.", check_key_texts()) +
+         json_rows("### The object `ranks`", "Only with `--ranks`.", check_rank_key_texts()) +
+         json_rows("## Keys of `compare --json`", "The result of the comparison of two outputs.", compare_key_texts());
 }
 
 }  // namespace

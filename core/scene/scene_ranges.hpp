@@ -44,7 +44,7 @@ inline constexpr std::array<Magnitudes, 10> magnitudes{{
     {Dimension::time, "time", "time", 1e-30, 1e30, "t^2 stays within 1e-60 and 1e60"},
     {Dimension::mass, "mass", "mass", 1e-50, 1e50, "sums and products of two masses stay within 1e-100 and 1e100"},
     {Dimension::speed, "speed", "length / time", 0.0, 1e60,
-     "L / T; v^2 L^2 of a contact time stays below 1e180. No speed is too small: it only moves nothing"},
+     "L / T; v^2 L^2 of a contact time stays below 1e180. Any small speed is allowed, though it may move nothing"},
     {Dimension::acceleration, "acceleration", "length / time^2", 1e-90, 1e90, "L / T^2; g L is a speed squared"},
     {Dimension::diffusion, "diffusion coefficient", "length^2 / time", 1e-90, 1e90, "L^2 / T; D t is a length squared"},
     {Dimension::density, "density", "mass / length^2", 1e-110, 1e110, "m / L^2"},
@@ -65,15 +65,15 @@ struct Proportion {
   std::string_view why;
 };
 inline constexpr std::array<Proportion, 5> proportions{{
-    {"steps t_end / dt, frames t_end / every, samples and half periods of vibrations likewise", most_steps,
+    {"steps t_end / dt, frames t_end / every, samples, half periods of vibrations", most_steps,
      "2^53: their numbers are doubles, which hold whole numbers up to there"},
-    {"disks rate t_end that a source is to give", most_emissions,
-     "2^50: their times k / rate stay apart by more than the rounding of time"},
+    {"disks from a source, rate t_end", most_emissions,
+     "2^50: their times k / rate differ by more than the rounding of time"},
     {"longer side of the box over the smallest radius", most_radii,
-     "2^40: places have 53 bits, which leaves 13 for a radius; above 10^9 a run warns"},
+     "2^40: positions have 53 bits, so a radius has 13; above 10^9 a run warns"},
     {"crossings of the box by the fastest disk until t_end", most_crossings,
-     "2^53: the time of one must not vanish in that of all"},
-    {"disks, those from sources included", static_cast<double>(most_disks), "ids have 32 bits, walls take some"},
+     "2^53: the time of one crossing must not vanish in t_end"},
+    {"disks, with those from sources", static_cast<double>(most_disks), "ids have 32 bits, and walls use some of them"},
 }};
 
 constexpr const Magnitudes& magnitudes_of(Dimension d) {

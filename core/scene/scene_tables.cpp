@@ -5,63 +5,63 @@ namespace carom {
 namespace {
 
 constexpr SceneTable tables[] = {
-    {"", "The file itself", "Two keys of its own, then tables."},
+    {"", "The file itself", "The file has two keys of its own, and tables."},
     {"box", "`[box]`",
      "The rectangle from (0, 0) to (width, height): either `width` and `height`, or `packing_fraction`. Periodic sides "
-     "come in opposite pairs. A sink takes away what touches it."},
-    {"box.side", "`left = { ... }` in `[box]`, likewise `right`, `bottom` and `top`",
-     "A side of which there is more to say than its kind."},
+     "come in opposite pairs. A sink removes every disk that touches it."},
+    {"box.side", "`left = { ... }` in `[box]`, also `right`, `bottom` and `top`",
+     "A side with more properties than its kind."},
     {"box.side.motion", "`motion = { ... }` of a side", "Exactly one of `velocity` and `vibrate`."},
-    {"box.wall_roughness", "`wall_roughness = { ... }` in `[box]`", "Rough sides and inner walls."},
-    {"physics", "`[physics]`", "What acts on the disks. A scene states only what it has."},
+    {"box.wall_roughness", "`wall_roughness = { ... }` in `[box]`", "The roughness of the sides and of inner walls."},
+    {"physics", "`[physics]`",
+     "The forces on the disks and the rules of their collisions. Leave out what the scene does not have."},
     {"physics.restitution", "`restitution = { ... }` in `[physics]` and `[[physics.pairs]]`",
      "A restitution that depends on the speed of approach (Schwager and Poeschel 1998); see "
      "[methods.md](methods.md#what-they-share)."},
     {"physics.pairs", "`[[physics.pairs]]`",
-     "The restitution of collisions between two groups, or within one; each pair once, in either order. Pairs that are "
-     "not stated have the restitution of `[physics]`."},
+     "The restitution of collisions between two groups, or within one. State each pair once, in either order. All "
+     "other pairs have the restitution of `[physics]`."},
     {"physics.roughness", "`roughness = { ... }` in `[physics]`",
      "Rough disks: Walton's rule with three parameters, `restitution` along the line of centres and these two along "
      "the surfaces; see [methods.md](methods.md#rough-disks)."},
     {"physics.collapse", "`collapse = { ... }` in `[physics]`",
      "The remedy for inelastic collapse under method `exact`: the TC model (Luding and McNamara 1998), in which a "
-     "collision is elastic where one of its disks collided less than `contact_time` ago."},
+     "collision is elastic if one of its disks has collided less than `contact_time` before."},
     {"physics.thermostat", "`thermostat = { ... }` in `[physics]`",
-     "Keeps the disks at a temperature by kicks at times k `dt`, between which they fly and collide as without it. Not "
-     "with Brownian motion."},
+     "Keeps the disks at a temperature by kicks at the times k `dt`. In between the disks fly and collide as usual. "
+     "Not with Brownian motion."},
     {"disks", "`[[disks]]`",
-     "A group of disks; a scene may have many, or none where it has sources. Ids run on from 0 in the order of the "
-     "file."},
-    {"disks.positions", "`positions = { ... }` in `[[disks]]`", "Places from elsewhere; exactly one of these keys."},
-    {"disks.region", "`region = { ... }` in `[[disks]]`", "A circle, in place of the four numbers of a rectangle."},
+     "A group of disks. A scene may have many of them, or none if it has sources. Ids count from 0 through all groups, "
+     "in the order of the file."},
+    {"disks.positions", "`positions = { ... }` in `[[disks]]`", "Positions from a file. Exactly one of these keys."},
+    {"disks.region", "`region = { ... }` in `[[disks]]`", "A circle, instead of the four numbers of a rectangle."},
     {"disks.velocities", "`velocities = { ... }` in `[[disks]]` and `[[sources]]`", "Exactly one of these keys."},
     {"disks.radius", "`radius = { ... }` in `[[disks]]` and `[[sources]]`",
-     "Exactly one of these keys; `weights` goes with `choice`. Every disk draws its own by its id."},
+     "Exactly one of these keys; `weights` belongs to `choice`. The value of each disk depends on its id."},
     {"disks.mass", "`mass = { ... }` in `[[disks]]` and `[[sources]]`",
-     "Exactly one of these keys; `weights` goes with `choice`. Every disk draws its own by its id."},
+     "Exactly one of these keys; `weights` belongs to `choice`. The value of each disk depends on its id."},
     {"frame", "`{ frame = ... }` in `[[disks]]`",
      "Starts from a frame of an earlier run: `positions`, `velocities`, `radius`, `mass` and `spin` may each be taken "
-     "from one. The last frame, unless `index` or `time` says which. In a box with `shear_rate` velocities are taken "
-     "relative to the flow of the run that wrote them."},
-    {"growth", "`[growth]`", "How `positions = \"growth\"` goes about it; only where some group grows."},
+     "from one. It is the last frame, unless `index` or `time` selects another. In a box with `shear_rate`, velocities "
+     "are taken relative to the flow of the earlier run."},
+    {"growth", "`[growth]`", "Settings of `positions = \"growth\"`. Only if a group of the scene has it."},
     {"sources", "`[[sources]]`",
-     "Disks that come while the run goes on, the k-th at time k / `rate` and none at the end, through a side or "
-     "anywhere in a region. A disk that would overlap another waits, and is tried at other places: by time "
-     "stepping at one in every step; by `exact` at 32 at each time k / `rate`, and while fewer than eight wait three "
-     "times in between. Where room is scarce fewer come than `rate` says. How many wait is counted (`waiting`), and a "
-     "run warns at its end where more than a twentieth of them do."},
+     "Disks that come during the run, through a side or anywhere in a region. The k-th disk is due at time k / `rate`; "
+     "none is due at the end of the run.\n\nA disk that would overlap another waits, and is tried at other places. "
+     "Time stepping tries one place in every step. `exact` tries 32 places at each time k / `rate`, and three times in "
+     "between while fewer than eight disks wait. Without room fewer disks come than `rate`: `waiting` counts those "
+     "that wait, and a run warns at its end if more than a twentieth of them do."},
     {"walls", "`[[walls]]`",
-     "Inner walls: segments without thickness, which disks touch from both sides and at their ends: funnels, shelves, "
-     "pockets (`kind = \"sink\"`), slits; pistons, paddles and shakers where they move."},
+     "Inner walls are segments without thickness, which disks touch from both sides and at their ends. They make "
+     "funnels, shelves, slits and pockets (`kind = \"sink\"`) and, if they move, pistons, paddles and shakers."},
     {"walls.motion", "`motion = { ... }` of `[[walls]]`",
-     "Exactly one of `velocity` and `vibrate`. All the wall's segments move alike, and do not turn. The wall stays in "
-     "the box, but goes round where that is periodic."},
-    {"run", "`[run]`", "How the scene is run."},
-    {"output", "`[output]`", "What a run writes."},
+     "Exactly one of `velocity` and `vibrate`. All segments of the wall move alike, and do not turn. The wall has to "
+     "stay in the box, but may cross periodic sides."},
+    {"run", "`[run]`", "The method, the step and the end of the run."},
+    {"output", "`[output]`", "The files that a run writes."},
     {"output.movie", "`movie = { ... }` in `[output]`",
-     "How the movie looks, and what `carom render` makes of the trajectory; see "
-     "[output.md](output.md#movies-and-pictures)."},
-    {"analysis", "`[analysis]`", "What a run measures, see [output.md](output.md#measuring-during-a-run)."},
+     "The look of the movie, and of what `carom render` draws; see [output.md](output.md#movies-and-pictures)."},
+    {"analysis", "`[analysis]`", "The measurements of a run; see [output.md](output.md#measuring-during-a-run)."},
     {"analysis.pair_correlation", "`pair_correlation = { ... }` in `[analysis]`", ""},
     {"analysis.bond_correlation", "`bond_correlation = { ... }` in `[analysis]`", ""},
     {"analysis.speeds", "`speeds = { ... }` in `[analysis]`", ""},

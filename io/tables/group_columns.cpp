@@ -12,14 +12,15 @@ namespace carom {
 std::vector<GroupColumn> group_column_kinds() {
   return {
       {"disks", true, "", "disks of the group in the box"},
-      {"kinetic", false, "energy", "their sum of m v^2 / 2; like the next three nan for Brownian motion"},
+      {"kinetic", false, "energy", "sum of m v^2 / 2 of its disks; nan for Brownian motion"},
       {"temperature", false, "energy",
-       "mean kinetic energy of one of them, measured from their mean velocity, in a shear flow of velocities relative "
-       "to that; nan without disks, here and below"},
-      {"vx", false, "length / time", "their mean velocity, momentum over mass"},
-      {"vy", false, "length / time", "likewise"},
-      {"x", false, "length", "x of their centre of mass; only where left and right are not periodic"},
-      {"y", false, "length", "y of it; only where bottom and top are not periodic"}};
+       "mean kinetic energy of a disk of the group relative to their mean velocity, in a sheared box after the flow is "
+       "subtracted; nan without disks and for Brownian motion"},
+      {"vx", false, "length / time",
+       "x component of their mean velocity, momentum over mass; nan without disks and for Brownian motion"},
+      {"vy", false, "length / time", "y component of their mean velocity; nan as `vx_`"},
+      {"x", false, "length", "x of their centre of mass, nan without disks; only if left and right are not periodic"},
+      {"y", false, "length", "y of their centre of mass, nan without disks; only if bottom and top are not periodic"}};
 }
 
 namespace {

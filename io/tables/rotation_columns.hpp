@@ -12,9 +12,10 @@
 namespace carom {
 
 inline constexpr ColumnText rotation_columns[] = {
-    {"rotational", "energy", "sum of I w^2 / 2; `total` has it too; only where disks are rough, as the next"},
+    {"rotational", "energy", "sum of I w^2 / 2, a part of `total`; only if disks are rough"},
     {"rotational_temperature", "energy",
-     "mean of I w^2 of a disk, 0 without disks; that of the motion of the centres is `kinetic` over `disks`"},
+     "mean of I w^2 of a disk, 0 without disks; only if disks are rough. The temperature of the motion of the centres "
+     "is `kinetic` over `disks`"},
 };
 
 // The names of the columns, none if disks are smooth; and their values, in the same order.

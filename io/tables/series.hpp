@@ -31,33 +31,35 @@ struct SeriesColumn {
 inline constexpr std::array<SeriesColumn, 18> series_columns{{
     {"disks", true, "", "disks in the box"},
     {"kinetic", false, "energy",
-     "sum of m v^2 / 2, with the flow of a sheared box; nan for Brownian motion, whose u / dt is no velocity"},
+     "sum of m v^2 / 2, in a sheared box with the flow; nan for Brownian motion, which has no velocities"},
     {"potential", false, "energy",
-     "sum of -m g.r, 0 at the lower left corner; jumps, and `total` with it, where a disk goes round along gravity"},
-    {"total", false, "energy", "kinetic + potential + `rotational`; likewise"},
-    {"px", false, "momentum", "sum of m vx; likewise"},
-    {"py", false, "momentum", "sum of m vy; likewise"},
-    {"collisions", true, "", "of two disks, since the start"},
-    {"wall_collisions", true, "", "of a disk and a wall, or a fixed disk, since the start"},
+     "sum of -m g.r, 0 at the lower left corner; jumps, as does `total`, when a disk crosses a periodic side along "
+     "gravity"},
+    {"total", false, "energy", "`kinetic` + `potential` + `rotational`; nan for Brownian motion"},
+    {"px", false, "momentum", "sum of m vx; nan for Brownian motion"},
+    {"py", false, "momentum", "sum of m vy; nan for Brownian motion"},
+    {"collisions", true, "", "collisions of two disks since the start"},
+    {"wall_collisions", true, "", "collisions of a disk with a wall or a fixed disk since the start"},
     {"pressure", false, "energy / area",
-     "from the kinetic energy of this row (relative to a shear flow) and all collisions since the row before, over the "
-     "area of the whole box, fixed disks and all, or where sides move of the room between them; 0 in the first; nan "
-     "likewise. A row in the same window of exact repeats it"},
+     "pressure from the kinetic energy of this row (relative to a shear flow) and all collisions since the row before, "
+     "divided by the area of the whole box, with fixed disks; if sides move, by the area between them. 0 in the first "
+     "row; nan for Brownian motion. A row within the same window of `exact` repeats it"},
     {"collision_rate", false, "1 / time",
-     "collisions a disk takes part in per unit time, mean since the row before; of Brownian disks it grows as 1 / "
-     "sqrt(dt)"},
-    {"max_overlap", false, "", "largest overlap of two disks in this frame, over the sum of their radii; 0 if none"},
-    {"removed", true, "", "disks that sinks have taken, since the start"},
-    {"emitted", true, "", "disks that came from sources, since the start"},
-    {"waiting", true, "", "disks that are due from sources and find no room"},
-    {"force_left", false, "force", "outwards on the left wall, mean since the row before; nan likewise"},
-    {"force_right", false, "force", "likewise on the right wall"},
-    {"force_bottom", false, "force", "likewise on the floor"},
-    {"force_top", false, "force", "likewise on the ceiling"},
+     "collisions of a disk per unit time, mean since the row before; for Brownian motion it grows as 1 / sqrt(dt)"},
+    {"max_overlap", false, "",
+     "largest overlap of two disks in this frame, over the sum of their radii; 0 without overlap"},
+    {"removed", true, "", "disks that sinks have removed since the start"},
+    {"emitted", true, "", "disks that came from sources since the start"},
+    {"waiting", true, "", "disks of sources that are due and wait for room"},
+    {"force_left", false, "force",
+     "outward force on the left wall, mean since the row before; nan for Brownian motion"},
+    {"force_right", false, "force", "as `force_left`, on the right wall"},
+    {"force_bottom", false, "force", "as `force_left`, on the bottom wall"},
+    {"force_top", false, "force", "as `force_left`, on the top wall"},
 }};
 inline constexpr const char* displacement_column = "displacement";  // behind them, if [analysis] asks for it
 // Then a column for each sink; its full name is this name, an underscore, and the sink's name.
-inline constexpr ColumnText taken_column{"removed_by", "", "disks that a sink has taken, since the start"};
+inline constexpr ColumnText taken_column{"removed_by", "", "disks that this sink has removed since the start"};
 using SeriesRow = std::array<double, series_columns.size()>;  // counts are exact up to 2^53
 
 inline constexpr std::size_t kinetic_column = 1, potential_column = 2, total_column = 3;

@@ -12,20 +12,21 @@ namespace carom {
 
 // The full name of a column is this name, an underscore, and the side's name.
 inline constexpr ColumnText heat_column{
-    "heat", "energy", "that a thermal side has given to the disks since the start; its slope is the flow of heat"};
+    "heat", "energy", "energy given to the disks by this side since the start; its slope is the flow of heat"};
 
-inline constexpr ColumnText work_column{"work", "energy",
-                                        "that a side that moves has done on the disks since the start"};
+inline constexpr ColumnText work_column{"work", "energy", "work of this side on the disks since the start"};
 
 // Columns of their own names.
 inline constexpr ColumnText wall_columns[] = {
-    {"wall_work", "energy", "that inner walls which move have done on the disks since the start"},
-    {"wall_push_x", "mass length / time", "momentum along x that they have given to the disks since the start"},
-    {"wall_push_y", "mass length / time", "likewise along y"},
+    {"wall_work", "energy", "work of moving inner walls on the disks since the start"},
+    {"wall_push_x", "mass length / time",
+     "x component of the momentum given to the disks by moving inner walls since the start"},
+    {"wall_push_y", "mass length / time",
+     "y component of the momentum given to the disks by moving inner walls since the start"},
 };
 
 inline constexpr ColumnText thermostat_column{"thermostat_heat", "energy",
-                                              "that the thermostat has given to the disks since the start"};
+                                              "energy given to the disks by the thermostat since the start"};
 
 // The energy sources of a scene.
 struct EnergySources {

@@ -90,110 +90,108 @@ Json traffic_of(const Summary& s) {
 
 // For a new key, add a row here.
 const JsonKey<Summary> summary_keys[] = {
-    {"scene", "", "the scene's file", [](const Summary& s) -> Json { return s.scene; }},
+    {"scene", "", "file of the scene", [](const Summary& s) -> Json { return s.scene; }},
     {"method", "", "`rollback`, `pairwise` or `exact`", [](const Summary& s) -> Json { return s.method; }},
     {"engine", "", "`parallel` or `reference`", [](const Summary& s) -> Json { return s.engine.name; }},
-    {"threads", "", "threads of the engine, on each rank", [](const Summary& s) -> Json { return s.engine.threads; }},
+    {"threads", "", "threads of the engine on each rank", [](const Summary& s) -> Json { return s.engine.threads; }},
     {"ranks", "", "processes that shared the box; 1 without `--ranks`",
      [](const Summary& s) -> Json { return s.engine.ranks; }},
     {"particles", "", "disks in the box at the end", [](const Summary& s) -> Json { return s.particles; }},
     {"steps", "", "steps done; with `exact`, windows", [](const Summary& s) -> Json { return s.counters.steps; }},
     {"time", "time", "simulated time at the end", [](const Summary& s) -> Json { return json_number(s.time); }},
-    {"collisions", "", "of two disks", [](const Summary& s) -> Json { return s.counters.collisions; }},
-    {"wall_collisions", "", "of a disk and a wall, or a fixed disk",
+    {"collisions", "", "collisions of two disks", [](const Summary& s) -> Json { return s.counters.collisions; }},
+    {"wall_collisions", "", "collisions of a disk with a wall or a fixed disk",
      [](const Summary& s) -> Json { return s.counters.wall_collisions; }},
     {"wall_s", "s", "wall time of the whole run", [](const Summary& s) -> Json { return json_number(s.wall_s); }},
     {"cpu_s", "s", "processor time of the whole run", [](const Summary& s) -> Json { return json_number(s.cpu_s); }},
-    {"step_s", "s", "wall time of the steps alone, without set-up and output",
+    {"step_s", "s", "wall time of the steps, without the start and the output",
      [](const Summary& s) -> Json { return json_number(s.step_s); }},
     {"energy_initial", "energy",
-     "energy of motion, rotation and position at the start; null for Brownian motion, whose u / dt is no velocity",
+     "kinetic, rotational and potential energy at the start; null for Brownian motion, which has no velocities",
      [](const Summary& s) -> Json { return json_number(s.energy_initial); }},
-    {"energy_final", "energy", "the same at the end; null likewise",
+    {"energy_final", "energy", "the same at the end; null for Brownian motion",
      [](const Summary& s) -> Json { return json_number(s.energy_final); }},
     {"momentum_drift", "",
-     "change of sum m v over sum m abs(v), the larger of start and end; kept to rounding where sides are periodic, "
-     "without shear, and disks feel nothing but each other; null likewise",
+     "change of sum m v from start to end, over sum m abs(v) at the start or end, whichever is larger; zero to "
+     "rounding in a periodic box without shear, external forces, walls and fixed disks; null for Brownian motion",
      [](const Summary& s) -> Json { return json_number(s.momentum_drift); }},
-    {"max_overlap", "", "largest overlap of two disks in the last state, over the sum of their radii; 0 if none",
+    {"max_overlap", "",
+     "largest overlap of two disks in the last state, over the sum of their radii; 0 without overlap",
      [](const Summary& s) -> Json { return json_number(s.max_overlap); }},
-    {"wall_overlap", "", "likewise of a disk and a wall, over its radius",
+    {"wall_overlap", "", "largest overlap of a disk and a wall in the last state, over its radius; 0 without overlap",
      [](const Summary& s) -> Json { return json_number(s.wall_overlap); }},
     {"pressure", "energy / area",
-     "mean over the run, from collisions and the kinetic energy halfway between start and end (relative to a shear "
-     "flow), in the room between the mean places of sides that move; null likewise, of motion in no time, and where "
-     "the energies of start and end differ by more than a quarter, or are 0 with collisions in between: the pressure "
-     "of a gas that cools or heats up is in series.csv, over time (output.series)",
+     "mean pressure over the run, from the collisions and the mean of the kinetic energies at start and end (relative "
+     "to a shear flow); if sides move, in the area between their mean places. null for Brownian motion, for a run "
+     "without duration, and if the two energies differ by more than a quarter, or are 0 in spite of collisions: if a "
+     "gas cools or heats up, see its pressure over time in series.csv (`output.series`)",
      [](const Summary& s) -> Json { return json_number(s.pressure); }},
     {"collision_rate", "1 / time",
-     "collisions that a disk takes part in per unit time, over the time that all disks were there; in time stepping "
-     "one that a sink takes counts for half of that step",
+     "collisions of a disk per unit time, over the time for which each disk was in the box; in time stepping a disk "
+     "that a sink removes counts for half of that step",
      [](const Summary& s) -> Json { return json_number(s.collision_rate); }},
-    {"removed", "", "disks that sinks have taken", [](const Summary& s) -> Json { return s.counters.removed; }},
+    {"removed", "", "disks that sinks have removed", [](const Summary& s) -> Json { return s.counters.removed; }},
     {"removed_by", "",
-     "only with sinks: an object, how many disks each of them took (`left` or another side, `walls.0` for the first of "
-     "`[[walls]]`, ...)",
+     "only with sinks: an object with the number of disks that each of them has removed (`left` or another side, "
+     "`walls.0` for the first of `[[walls]]`, ...)",
      [](const Summary& s) -> Json { return s.removed_by.empty() ? absent() : removed_by(s); }},
     {"analysis", "",
-     "only with an analysis of them: an object, the means of `pressure`, `collision_rate`, `bond_order_local` and "
-     "`bond_order_global` over its samples, and `diffusion`, each with its standard error (`pressure_error`, ...), as "
-     "in "
-     "analysis.h5; null of too few samples",
+     "only if `[analysis]` measures them: an object with the means of `pressure`, `collision_rate`, `bond_order_local` "
+     "and `bond_order_global` over the samples, and `diffusion`, each with its standard error (`pressure_error`, ...), "
+     "as in analysis.h5; null with too few samples",
      [](const Summary& s) -> Json { return s.measured.empty() ? absent() : means_of(s); }},
     {"emitted", "", "disks that came from sources", [](const Summary& s) -> Json { return s.counters.emitted; }},
-    {"state_hash", "", "64-bit hash of (id, x, y, vx, vy), and the spin of rough disks, of all disks at the end",
+    {"state_hash", "", "64-bit hash of (id, x, y, vx, vy), and of the spin of rough disks, for all disks at the end",
      [](const Summary& s) -> Json { return s.state_hash; }},
-    {"version", "", "of Carom, with the commit that it was built from",
+    {"version", "", "version of Carom, with the commit from which it was built",
      [](const Summary&) -> Json { return build_version(); }},
-    {"heat", "energy", "only with thermal sides: an object, what each of them gave to the disks",
+    {"heat", "energy", "only with thermal sides: an object with the energy that each of them gave to the disks",
      [](const Summary& s) -> Json { return side_energy_of(s, [&](Side side) { return s.box.is_thermal(side); }); }},
-    {"thermostat_heat", "energy", "only with a thermostat: what it gave to the disks",
+    {"thermostat_heat", "energy", "only with a thermostat: the energy that it gave to the disks",
      [](const Summary& s) -> Json { return s.thermostat ? json_number(s.counters.thermostat_heat) : absent(); }},
-    {"work", "energy", "only with sides that move: an object, the work that each of them did on the disks",
+    {"work", "energy", "only with moving sides: an object with the work of each of them on the disks",
      [](const Summary& s) -> Json { return side_energy_of(s, [&](Side side) { return s.box.moves(side); }); }},
-    {"wall_work", "energy", "only with inner walls that move: the work that they did on the disks",
+    {"wall_work", "energy", "only with moving inner walls: their work on the disks",
      [](const Summary& s) -> Json { return s.box.inner_walls_move ? json_number(s.counters.wall_work) : absent(); }},
-    {"wall_push", "mass length / time", "likewise: the momentum [px, py] that they gave to the disks",
+    {"wall_push", "mass length / time",
+     "only with moving inner walls: the momentum [px, py] that they gave to the disks",
      [](const Summary& s) -> Json {
        if (!s.box.inner_walls_move) return absent();
        return Json::array({json_number(s.counters.wall_push[0]), json_number(s.counters.wall_push[1])});
      }},
-    {"shear_work", "energy", "only with shear_rate: what the moving images did on the disks",
+    {"shear_work", "energy", "only with `shear_rate`: work of the moving images on the disks",
      [](const Summary& s) -> Json { return s.box.shear.acts() ? json_number(s.counters.shear_work) : absent(); }},
-    {"seed", "", "of the random numbers", [](const Summary& s) -> Json { return s.seed; }},
-    {"waiting", "", "disks that are due from sources and find no room",
+    {"seed", "", "seed of the random numbers", [](const Summary& s) -> Json { return s.seed; }},
+    {"waiting", "", "disks of sources that are due and wait for room",
      [](const Summary& s) -> Json { return s.counters.waiting; }},
     {"frames", "", "frames written", [](const Summary& s) -> Json { return s.frames; }},
-    {"resumed", "", "how often the run went on from a checkpoint", [](const Summary& s) -> Json { return s.resumed; }},
-    {"resume_with", "", "only of a run that stopped early: the command that goes on",
+    {"resumed", "", "number of times that the run was resumed from a checkpoint",
+     [](const Summary& s) -> Json { return s.resumed; }},
+    {"resume_with", "", "only of a run that stopped early: the command that resumes it",
      [](const Summary& s) -> Json { return s.resume_with.empty() ? absent() : Json(s.resume_with); }},
     {"worst_overlap", "",
-     "largest overlap of two disks at the end of any step of the run, over the sum of their radii; 0 if none",
+     "largest overlap of two disks at the end of any step of the run, over the sum of their radii; 0 without overlap",
      [](const Summary& s) -> Json { return json_number(s.worst_disks.overlap.size); }},
-    {"worst_overlap_time", "time", "when it was; 0 if none",
+    {"worst_overlap_time", "time", "time of this overlap; 0 without overlap",
      [](const Summary& s) -> Json { return json_number(s.worst_disks.time); }},
-    {"worst_overlap_ids", "", "of which two disks; empty if none",
+    {"worst_overlap_ids", "", "ids of its two disks; empty without overlap",
      [](const Summary& s) -> Json {
        return ids_of(s.worst_disks, {s.worst_disks.overlap.id1, s.worst_disks.overlap.id2});
      }},
-    {"worst_wall_overlap", "", "likewise of a disk and a wall, over its radius",
+    {"worst_wall_overlap", "",
+     "largest overlap of a disk and a wall at the end of any step of the run, over its radius; 0 without overlap",
      [](const Summary& s) -> Json { return json_number(s.worst_wall.overlap.size); }},
-    {"worst_wall_overlap_time", "time", "when it was; 0 if none",
+    {"worst_wall_overlap_time", "time", "time of this overlap; 0 without overlap",
      [](const Summary& s) -> Json { return json_number(s.worst_wall.time); }},
-    {"worst_wall_overlap_ids", "", "of which disk; empty if none",
+    {"worst_wall_overlap_ids", "", "id of its disk; empty without overlap",
      [](const Summary& s) -> Json { return ids_of(s.worst_wall, {s.worst_wall.overlap.id1}); }},
-    {"warnings", "", "what the physics warned of, with the worst that was seen",
+    {"warnings", "", "the warnings about validity, with the worst value",
      [](const Summary& s) -> Json { return s.warnings; }},
     {"phase_s", "s",
-     "an object: wall time of each phase of a step, in this part of the run; of several ranks that of the first, with "
-     "`communication`, what of the others went into messages and waiting for them",
+     "an object with the wall time of each phase of a step, in this part of the run; with several ranks those of the "
+     "first rank, and `communication`, the part of the others that is spent on messages and on waiting for them",
      [](const Summary& s) -> Json { return phase_seconds(s); }},
-    {"traffic", "",
-     "only of several ranks, an object: `disks` of each at the end; `ghosts`, those of others that each had beside "
-     "them in the last step; `imbalance`, the most disks over their mean; `peak_bytes`, the most memory that each had; "
-     "what a rank said in a step, in the mean of this part of the run, `messages` and `bytes` of `exchange` (to its "
-     "two neighbours), `all_reduce` and `gather` (calls of all ranks, with what the rank gave to them); and the "
-     "`seconds` that each rank took for that",
+    {"traffic", "", "only with several ranks: an object with their loads and messages, see below",
      [](const Summary& s) -> Json { return traffic_of(s); }},
 };
 
@@ -224,18 +222,19 @@ std::string traffic_line(const Summary& s) {
   const auto [least, most] = std::minmax_element(report.ranks.begin(), report.ranks.end(), fewer);
   const Messages all = report.traffic().all();
   const double seconds = report.traffic().seconds / static_cast<double>(report.ranks.size());
-  return fmt::format("{} to {} disks each; {:.1f} messages with {}B a step and rank; {} in communication", least->disks,
-                     most->disks, a_step_and_rank(report, all.messages),
+  return fmt::format("{} to {} disks each; {:.1f} messages with {}B per step and rank; {} in communication",
+                     least->disks, most->disks, a_step_and_rank(report, all.messages),
                      short_number(a_step_and_rank(report, all.bytes)), duration_text(seconds));
 }
 
 // "0.0734"; for a gas that cools or heats up, the reason why there is none.
 std::string pressure_line(const Summary& s) {
   if (std::isnan(s.pressure)) {
-    if (s.counters.steps == 0) return "not known, as no time has passed";
-    return fmt::format("not known from the kinetic energy {}at the start, {:.6g}, and at the end, {:.6g}; {} over time",
-                       s.box.shear.acts() ? "relative to the flow " : "", s.kinetic_initial, s.kinetic_final,
-                       s.series ? "series.csv has it" : "output.series = true tells it");
+    if (s.counters.steps == 0) return "unknown, as no time has passed";
+    return fmt::format(
+        "unknown from the kinetic energy {}of {:.6g} at the start and {:.6g} at the end; {}",
+        s.box.shear.acts() ? "relative to the flow " : "", s.kinetic_initial, s.kinetic_final,
+        s.series ? "series.csv has the pressure over time" : "output.series = true gives the pressure over time");
   }
   return fmt::format("{:.6g}", s.pressure);
 }
@@ -245,7 +244,7 @@ std::string measured_line(const Summary& s) {
   std::string text;
   for (const MeasuredMean& mean : s.measured) {
     if (!text.empty()) text += ", ";
-    text += std::isnan(mean.value) ? fmt::format("{} not known, of too few samples", mean.name)
+    text += std::isnan(mean.value) ? fmt::format("{} unknown, as there are too few samples", mean.name)
                                    : fmt::format("{} {:.6g}", mean.name, mean.value);
     if (!std::isnan(mean.error)) text += fmt::format(" +- {:.2g}", mean.error);
   }
@@ -333,6 +332,19 @@ std::string json_text(const Summary& s) {
 
 std::vector<KeyText> summary_key_texts() {
   return key_texts(summary_keys);
+}
+
+std::vector<KeyText> traffic_key_texts() {
+  return {{"disks", "", "a list: disks of each rank at the end"},
+          {"ghosts", "", "a list: copies of disks of other ranks that each rank had in the last step"},
+          {"imbalance", "", "largest number of disks of a rank over the mean number"},
+          {"peak_bytes", "bytes", "a list: largest memory of each rank"},
+          {"exchange", "",
+           "an object with the `messages` and `bytes` that a rank sends to its two neighbours in a step, mean over the "
+           "ranks and this part of the run"},
+          {"all_reduce", "", "the same for reductions over all ranks"},
+          {"gather", "", "the same for data that are gathered from all ranks"},
+          {"seconds", "s", "a list: time of each rank in these calls"}};
 }
 
 std::string table_text(const Summary& s, const std::string& folder) {

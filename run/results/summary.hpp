@@ -61,6 +61,7 @@ std::string json_text(const Summary& summary);
 
 // The texts of docs/scene.md about these keys.
 std::vector<KeyText> summary_key_texts();
+std::vector<KeyText> traffic_key_texts();  // of the object `traffic`
 
 // A few aligned lines. folder: of the results, empty if there are none.
 std::string table_text(const Summary& summary, const std::string& folder);

@@ -61,12 +61,12 @@ TEST_F(CompareSummaries, FiguresThatBothHaveAreCompared) {
 TEST_F(CompareSummaries, WhatIsNoSummaryIsNoSameSummary) {
   summary("a", R"({"particles": 3})");
   summary("cut", R"({"particles": )");
-  expect_error("$C compare a cut", 2, "cut/summary.json: is no JSON; expected the summary of a run");
+  expect_error("$C compare a cut", 2, "cut/summary.json: is not JSON; expected the summary of a run");
   for (const std::string other : {"[]", "3", "null", "\"00ff\""}) {
     summary("other", other);
     expect_error("$C compare other other", 2,
-                 "other/summary.json: is no object of keys; expected the summary of a run");
-    expect_error("$C compare a other", 2, "other/summary.json: is no object of keys");
+                 "other/summary.json: is not a JSON object; expected the summary of a run");
+    expect_error("$C compare a other", 2, "other/summary.json: is not a JSON object");
   }
 }
 
@@ -79,7 +79,7 @@ TEST_F(CompareSummaries, WhatCannotBeComparedSaysWhy) {
   expect_error("$C compare a empty", 2, "empty: holds neither trajectory.xyz, trajectory.h5 nor summary.json");
   std::filesystem::create_directories(at("going on/carom-unfinished"));
   expect_error("$C compare a 'going on'", 2,
-               "going on: holds a run that is not finished; expected a finished one (carom resume 'going on'), or a "
+               "going on: holds a run that is not finished; expected a finished run (carom resume 'going on'), or a "
                "trajectory in going on/carom-unfinished");
   expect_error("$C compare a a.xyz", 2, "a and a.xyz: have nothing in common to compare");
   expect_error("$C compare a.xyz a", 2, "a.xyz and a: have nothing in common to compare");

@@ -87,10 +87,11 @@ TEST_F(Compare, AToleranceForgivesUpToItself) {
 
 TEST_F(Compare, FramesOfOtherTimesAreToldFromOtherPaths) {
   write("late.xyz", trajectory({"1 2 3 4", "9.9995 2 3 4"}, 0.2));
-  EXPECT_THAT(carom("compare a.xyz late.xyz").out, HasSubstr("\n  Frames go by their order, and from that one on"));
-  EXPECT_THAT(compare("").out, Not(HasSubstr("Frames go by their order")));
+  EXPECT_THAT(carom("compare a.xyz late.xyz").out,
+              HasSubstr("\n  Frames are compared in their order, and from this one on"));
+  EXPECT_THAT(compare("").out, Not(HasSubstr("Frames are compared in their order")));
   write("late.xyz", trajectory({"1 2 3 4", "9.9995 2 3 4"}, 0.1 * (1.0 + 1e-15)));
-  EXPECT_THAT(carom("compare a.xyz late.xyz").out, Not(HasSubstr("Frames go by their order")))
+  EXPECT_THAT(carom("compare a.xyz late.xyz").out, Not(HasSubstr("Frames are compared in their order")))
       << "rounding must not matter";
 }
 
@@ -180,7 +181,7 @@ TEST_F(Compare, WithARuleOnlyTrajectoriesCount) {
   bare.erase(line, bare.find('\n', line) + 1 - line);
   write("bare.toml", bare);
   ASSERT_EQ(carom("run bare.toml --quiet -o bare").status, 0);
-  expect_error("$C compare one bare --tolerance 1", 2, "bare: holds no trajectory; expected one: --tolerance");
+  expect_error("$C compare one bare --tolerance 1", 2, "bare: holds no trajectory; expected a trajectory: --tolerance");
 }
 
 TEST_F(Compare, WhatOnlyOneHasIsADifferenceAtAnyTolerance) {

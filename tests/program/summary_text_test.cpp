@@ -79,9 +79,10 @@ TEST(SummaryText, WhatAnAnalysisMeasuredHasItsError) {
                                          {"collision_rate_error", nullptr},
                                          {"diffusion", nullptr},
                                          {"diffusion_error", nullptr}}));
-  EXPECT_THAT(table_text(s, ""),
-              HasSubstr("  measured    pressure 0.5 +- 0.012, collision_rate 2, diffusion not known, "
-                        "of too few samples\n"));
+  EXPECT_THAT(
+      table_text(s, ""),
+      HasSubstr(
+          "  measured    pressure 0.5 +- 0.012, collision_rate 2, diffusion unknown, as there are too few samples\n"));
 }
 
 TEST(SummaryText, WhatWasWorstHasItsTimeAndItsDisks) {
@@ -156,7 +157,7 @@ TEST(SummaryText, TrafficIsThatOfAStepAndARank) {
   EXPECT_EQ(traffic["gather"], (json{{"messages", 8.0}, {"bytes", 80.0}}));
   const std::string text = table_text(s, "");
   EXPECT_THAT(text, HasSubstr("2 threads on each of 2 ranks"));
-  EXPECT_THAT(text, HasSubstr("2 to 4 disks each; 18.0 messages with 180B a step and rank; "));
+  EXPECT_THAT(text, HasSubstr("2 to 4 disks each; 18.0 messages with 180B per step and rank; "));
 }
 
 TEST(SummaryText, ThePressureOrWhyThereIsNone) {
@@ -166,13 +167,13 @@ TEST(SummaryText, ThePressureOrWhyThereIsNone) {
   s.pressure = std::nan("");
   s.kinetic_initial = 1.0;
   s.kinetic_final = 2.0;
-  EXPECT_THAT(table_text(s, ""), HasSubstr("not known from the kinetic energy at the start, 1, and at the end, 2; "));
+  EXPECT_THAT(table_text(s, ""), HasSubstr("unknown from the kinetic energy of 1 at the start and 2 at the end; "));
   EXPECT_TRUE(parsed(s)["pressure"].is_null());
   s.box.shear.rate = 0.5;
   EXPECT_THAT(table_text(s, ""),
-              HasSubstr("not known from the kinetic energy relative to the flow at the start, 1, and at the end, 2; "));
+              HasSubstr("unknown from the kinetic energy relative to the flow of 1 at the start and 2 at the end; "));
   s.counters.steps = 0;
-  EXPECT_THAT(table_text(s, ""), HasSubstr("not known, as no time has passed"));
+  EXPECT_THAT(table_text(s, ""), HasSubstr("unknown, as no time has passed"));
 }
 
 }  // namespace
