@@ -34,7 +34,7 @@ void add_scene_changes(CLI::App* command, OptionWords& words) {
     const SceneOption& o = scene_options[k];
     add_value(command, o.option, words.scene_values[k], o.value, o.help);
   }
-  command->add_option("--set", words.sets, "change any key of the scene; may be repeated")
+  command->add_option("--set", words.sets, "set any key of the scene; may be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
 }
@@ -45,22 +45,25 @@ void add_scene_options(CLI::App* command, OptionWords& words) {
 }
 
 constexpr const char* early_stop =
-    "Ctrl-C, SIGTERM and --max-walltime write a checkpoint and stop with status 4; SIGUSR1 writes one and goes on. A "
-    "second Ctrl-C quits at once.";
+    "Ctrl-C, SIGTERM and --max-walltime write a checkpoint and stop the run with status 4. SIGUSR1 writes a "
+    "checkpoint, and the run continues. A second Ctrl-C quits at once.";
 
 // Adds the options of runs, whether from the start or from a checkpoint.
 void add_run_options(CLI::App* run, OptionWords& words, const std::string& engine) {
   add_value(run, "--engine", words.engine, "parallel|reference",
             fmt::format("default {}; both give the same bits", engine));
-  add_value(run, "--threads", words.threads, "N", "threads of the parallel engine; default all cores");
-  add_value(run, "--ranks", words.ranks, "N", "processes that share the box, over MPI; methods pairwise and exact");
+  add_value(run, "--threads", words.threads, "N", "number of threads of the parallel engine; default all cores");
+  add_value(run, "--ranks", words.ranks, "N",
+            "number of processes that share the box over MPI; for methods pairwise and exact");
   add_value(run, "--max-walltime", words.walltime, "TIME",
-            "stop with a checkpoint after so long, such as 90 s, 30 min or 2h");
+            "stop with a checkpoint after this wall time, such as 90 s, 30 min or 2h");
   run->add_flag("--json", words.json, "print the summary as JSON, and nothing else, on standard output");
-  run->add_flag("--quiet", words.quiet, "print nothing but errors, and where a run was stopped");
+  run->add_flag("--quiet", words.quiet, "print only errors, and the note of a stopped run");
   run->add_flag("--force", words.force, "replace the results of an earlier run in the folder");
-  run->add_flag("--view", words.view, "when done, make DIR/view.html, which plays the run, and open it in the browser");
-  run->add_flag("--strict", words.strict, "end with status 3 at the first warning of a limit of the method");
+  run->add_flag("--view", words.view,
+                "at the end write DIR/view.html, which plays the run, and open it in the browser");
+  run->add_flag("--strict", words.strict,
+                "end the run with status 3 at the first warning about the validity of the method");
 }
 
 void describe_run(CLI::App* run, OptionWords& words) {
@@ -73,32 +76,35 @@ void describe_run(CLI::App* run, OptionWords& words) {
 void describe_check(CLI::App* check, OptionWords& words) {
   add_scene_options(check, words);
   add_value(check, "--accuracy", words.accuracy, "X",
-            "say which method and dt keep the error of averages (collision rate, pressure) below X");
-  add_value(check, "--ranks", words.ranks, "N", "memory and messages of each of so many processes as well");
+            "find the method and dt that keep the error of averages (collision rate, pressure) below X");
+  add_value(check, "--ranks", words.ranks, "N", "also predict memory and messages for this number of processes");
   check->add_flag("--json", words.json, "print the result as JSON");
 }
 
 void describe_resume(CLI::App* resume, OptionWords& words) {
   resume->add_option("CHECKPOINT", words.first, "checkpoint.carom, or the folder of the run that wrote it")
       ->type_name("");
-  add_value(resume, "-o,--output", words.folder, "DIR", "another folder, which gets copies of the files so far");
-  add_value(resume, "--t-end", words.scene_values[t_end_option], "T", "another simulated time at which the run ends");
-  add_run_options(resume, words, "that of the run so far");
+  add_value(resume, "-o,--output", words.folder, "DIR",
+            "write into another folder, which gets copies of the files so far");
+  add_value(resume, "--t-end", words.scene_values[t_end_option], "T",
+            "simulated time at which the run ends, if another than before");
+  add_run_options(resume, words, "that of the run before");
   resume->footer(early_stop);
 }
 
 void describe_compare(CLI::App* compare, OptionWords& words) {
   compare->add_option("A", words.first, "folder of a run, or a trajectory")->type_name("");
-  compare->add_option("B", words.second, "the other one")->type_name("");
-  add_value(compare, "--tolerance", words.tolerance, "X", "values that differ by at most X count as the same");
+  compare->add_option("B", words.second, "the other folder or trajectory")->type_name("");
+  add_value(compare, "--tolerance", words.tolerance, "X", "take values that differ by at most X as the same");
   add_value(compare, "--fields", words.fields, "x,y,...",
-            "only these of x, y, vx, vy, radius, mass, spin, group, image_x, image_y");
-  add_value(compare, "--times", words.times, "T0:T1", "only frames of these times; either may be left out");
-  add_value(compare, "--at", words.at, "T", "only the frame of each that is nearest to this time");
+            "compare only these of x, y, vx, vy, radius, mass, spin, group, image_x, image_y");
+  add_value(compare, "--times", words.times, "T0:T1",
+            "compare only frames within these times; T0 or T1 may be left out");
+  add_value(compare, "--at", words.at, "T", "compare only the frame nearest to this time in each");
   compare->add_flag("--json", words.json, "print the result as JSON");
   compare->footer(
-      "Without these options every bit of the trajectories counts, and what the summaries say; with any of them only "
-      "the trajectories do.\nExit status: 0 the same, 1 different, 2 they cannot be compared.");
+      "Without --tolerance, --fields, --times and --at all bits of the trajectories and the summaries are compared; "
+      "with any of them only the trajectories are.\nExit status: 0 the same, 1 different, 2 cannot be compared.");
 }
 
 void describe_render(CLI::App* render, OptionWords& words) {
@@ -106,26 +112,26 @@ void describe_render(CLI::App* render, OptionWords& words) {
   add_value(
       render, "-o,--output", words.folder, "FILE",
       "a movie (.mp4, .webm, .gif) or a picture (.png, .svg); default DIR/movie.mp4, or DIR/frame_K.png with --frame");
-  add_value(render, "--frame", words.frame, "K", "picture of the K-th frame, counted from 1; default the last");
-  add_value(render, "--colour", words.colour, "speed|group|radius|mass|id", "what the colour of a disk stands for");
-  add_value(render, "--range", words.range, "LOW:HIGH", "ends of the colour scale; default as all frames ask");
-  add_value(render, "--size", words.size, "WIDTHxHEIGHT", "of the picture, in pixels");
-  add_value(render, "--fps", words.fps, "N", "frames a second; default 25");
-  render->add_flag("--quiet", words.quiet, "print nothing but errors");
+  add_value(render, "--frame", words.frame, "K", "draw the K-th frame, counted from 1; default the last");
+  add_value(render, "--colour", words.colour, "speed|group|radius|mass|id",
+            "the quantity that the colour of a disk shows");
+  add_value(render, "--range", words.range, "LOW:HIGH", "ends of the colour scale; default from all frames");
+  add_value(render, "--size", words.size, "WIDTHxHEIGHT", "size of the picture in pixels");
+  add_value(render, "--fps", words.fps, "N", "frames per second; default 25");
+  render->add_flag("--quiet", words.quiet, "print only errors");
   render->add_flag("--force", words.force, "replace an existing file");
 }
 
 void describe_view(CLI::App* view, OptionWords& words) {
   view->add_option("DIR", words.first, "folder of a run with a trajectory, or a trajectory")->type_name("");
-  add_value(view, "-o,--output", words.folder, "FILE", "the page; default DIR/view.html");
+  add_value(view, "-o,--output", words.folder, "FILE", "file of the page; default DIR/view.html");
   add_value(view, "--max-size", words.max_size, "SIZE",
-            "leave out frames, then disks, until the page is no longer than this; default 64MB");
-  view->add_flag("--open", words.open, "open it in the browser");
-  view->add_flag("--live", words.live,
-                 "serve a run that is going on to this computer's own browsers, and write no file");
-  view->add_flag("--quiet", words.quiet, "print nothing but errors");
+            "largest size of the page: frames, then disks, are left out to reach it; default 64MB");
+  view->add_flag("--open", words.open, "open the page in the browser");
+  view->add_flag("--live", words.live, "show a run in progress to browsers on this computer, and write no file");
+  view->add_flag("--quiet", words.quiet, "print only errors");
   view->add_flag("--force", words.force, "replace an existing file");
-  view->footer("One file that plays the run in any browser, and asks the network for nothing. See docs/viewer.md.");
+  view->footer("The page is one file that plays the run in any browser, without a network. See docs/viewer.md.");
 }
 
 void describe_sweep(CLI::App* sweep, OptionWords& words) {
@@ -133,31 +139,33 @@ void describe_sweep(CLI::App* sweep, OptionWords& words) {
   sweep->add_option("--over", words.over, "values of one key of the scene; may be repeated, for a grid")
       ->type_name("KEY=FROM:TO:COUNT|KEY=A,B,...")
       ->allow_extra_args(false);
-  add_value(sweep, "--seeds", words.seeds, "N", "so many seeds for each combination, from the scene's on; default 1");
+  add_value(sweep, "--seeds", words.seeds, "N",
+            "number of seeds for each combination, counted from the seed of the scene; default 1");
   add_value(sweep, "-o,--output", words.folder, "DIR", "folder of the sweep; default out/<name of the scene>_sweep");
-  add_value(sweep, "--jobs", words.jobs, "N", "runs at the same time; default one a core");
-  add_value(sweep, "--ranks", words.ranks, "N", "processes that share the box of each run, over MPI");
-  add_value(sweep, "--emit", words.emit, "slurm|parallel", "write a script that runs it elsewhere, and run nothing");
+  add_value(sweep, "--jobs", words.jobs, "N", "number of runs at the same time; default one for each core");
+  add_value(sweep, "--ranks", words.ranks, "N", "number of processes that share the box of each run over MPI");
+  add_value(sweep, "--emit", words.emit, "slurm|parallel",
+            "write a script that runs the sweep elsewhere, and run nothing");
   sweep->add_flag("--force", words.force, "replace another sweep in the folder");
-  sweep->footer("Called again, it goes on where it stopped. sweep.csv has a row a run.");
+  sweep->footer("The same command continues a sweep that was stopped. sweep.csv has a row for each run.");
 }
 
 void describe_chart(CLI::App* chart, OptionWords& words) {
-  add_value(chart, "--scene", words.first, "SCENE.toml", "of this scene, in place of those built in");
+  add_value(chart, "--scene", words.first, "SCENE.toml", "make the chart of this scene, instead of the built-in ones");
   add_scene_changes(chart, words);
   add_value(chart, "-o,--output", words.folder, "DIR",
             "folder for chart.svg, .png, .csv and .json; default out/chart, or out/chart_<name of the scene>");
-  chart->add_flag("--quick", words.quick, "fewer points, within a minute");
+  chart->add_flag("--quick", words.quick, "fewer points, in less than a minute");
   chart->add_flag("--tiny", words.tiny, "a test of the command itself")->group("");
-  chart->add_flag("--quiet", words.quiet, "print nothing but errors");
+  chart->add_flag("--quiet", words.quiet, "print only errors");
   chart->add_flag("--force", words.force, "replace an earlier chart in the folder");
   chart->footer(
-      "--scene takes scenes whose disks stay, collide, and can be run by exact; their own --dt is one of the steps. "
-      "See docs/chart.md.");
+      "--scene needs a scene in which the number of disks stays the same, disks collide, and method exact does not "
+      "stop. The dt of the scene is one of the steps. See docs/chart.md.");
 }
 
 void describe_docs(CLI::App* docs, OptionWords& words) {
-  docs->add_option("PAGE", words.first, "scene: every key of a scene, column of series.csv and key of --json")
+  docs->add_option("PAGE", words.first, "scene: all keys of a scene, columns of series.csv and keys of --json")
       ->type_name("");
 }
 
@@ -176,16 +184,17 @@ struct CommandRow {
 
 constexpr CommandRow commands[] = {
     {"run", "run a scene", describe_run, command_of<run_options>},
-    {"check", "read a scene and say what it would model, and at what cost", describe_check, command_of<check_options>},
-    {"resume", "go on from a checkpoint, bit for bit as if never stopped", describe_resume, command_of<resume_options>},
-    {"compare", "two outputs: the same bits, or where and by how much they differ", describe_compare,
+    {"check", "read a scene, and print what it would model, and at what cost", describe_check,
+     command_of<check_options>},
+    {"resume", "continue a run from a checkpoint, with the same bits as without the stop", describe_resume,
+     command_of<resume_options>},
+    {"compare", "compare two outputs: the same bits, or where and by how much they differ", describe_compare,
      command_of<compare_options>},
-    {"render", "a movie or a picture from a trajectory", describe_render, command_of<render_options>},
-    {"view", "one page that plays a run in any browser", describe_view, command_of<view_options>},
+    {"render", "make a movie or a picture of a trajectory", describe_render, command_of<render_options>},
+    {"view", "make a page that plays a run in any browser", describe_view, command_of<view_options>},
     {"sweep", "run a scene for every combination of values and seeds", describe_sweep, command_of<sweep_options>},
-    {"chart", "the speed-accuracy chart of all methods, from runs made now", describe_chart, command_of<chart_options>},
-    {"docs", "print a page of the documentation that is made from the program", describe_docs,
-     command_of<docs_options>},
+    {"chart", "measure the speed-accuracy chart of all methods", describe_chart, command_of<chart_options>},
+    {"docs", "print the page of the documentation that the program makes", describe_docs, command_of<docs_options>},
 };
 
 void add_commands(CLI::App& app, OptionWords& words) {

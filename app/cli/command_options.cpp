@@ -160,7 +160,7 @@ ChartOptions chart_options(const OptionWords& words) {
   ChartOptions o{
       file_option(words.folder), words.first, changes_of(words), words.quick, words.tiny, words.quiet, words.force};
   if (!o.scene.empty() || o.changes.overrides.empty()) return o;
-  fail_input("chart", "changes to a scene, and no scene", "expected --scene SCENE.toml with them");
+  fail_input("chart", "changes of a scene are given, but no scene", "expected --scene SCENE.toml with them");
 }
 
 DocsOptions docs_options(const OptionWords& words) {

@@ -43,7 +43,7 @@ void check_empty_words(const std::vector<const char*>& words) {
   for (std::size_t k = 1; k < words.size(); ++k) {
     if (*words[k] != '\0') continue;
     const std::string before = k > 1 ? words[k - 1] : "carom";
-    fail_input(before, "what follows it is empty", "expected a value; is a variable of the shell not set?");
+    fail_input(before, "is followed by an empty argument", "expected a value; is a variable of the shell not set?");
   }
 }
 

@@ -22,7 +22,7 @@ std::vector<std::string_view> option_names(const CLI::App* command, std::vector<
 }
 
 // Help about further commands of ./carom, which builds the program and then runs it.
-constexpr const char* launcher_help = R"(The launcher ./carom in the sources has some more:
+constexpr const char* launcher_help = R"(The launcher ./carom in the sources has more commands:
   test [ctest's arguments]    build and run the tests
   python [ARGUMENTS]          build the Python module and start Python with it
   bench                       build and run the benchmarks
@@ -56,8 +56,8 @@ void fail_as_one_line(const CLI::ParseError& error) {
   const std::string text = error.what();
   constexpr std::string_view with_value = " was given a disallowed flag override";  // in the words of CLI11
   if (text.ends_with(with_value)) {
-    fail_input(fmt::format("--{}", text.substr(0, text.size() - with_value.size())), "has a value, and takes none",
-               "expected it alone");
+    fail_input(fmt::format("--{}", text.substr(0, text.size() - with_value.size())), "takes no value",
+               "expected the option alone");
   }
   const std::string where = text.substr(0, text.find_first_of(": "));
   if (where.starts_with("-") && dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {

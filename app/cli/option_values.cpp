@@ -41,7 +41,7 @@ double number_of(const std::string& option, const std::string& text) {
   const char* const end = text.data() + text.size();
   const auto result = std::from_chars(text.data(), end, value);
   if (result.ec == std::errc::result_out_of_range && result.ptr == end) {
-    fail_input(option, fmt::format("is {}, which no double holds", text), "expected a number such as 0.01");
+    fail_input(option, fmt::format("is {}, beyond the range of a double", text), "expected a number such as 0.01");
   }
   if (result.ec != std::errc{} || result.ptr != end || !std::isfinite(value)) {
     fail_input(option, fmt::format("{} is not a number", in_quotes(text)), "expected a number such as 0.01");

@@ -16,7 +16,7 @@ struct SceneOption {
   const char* help;
 };
 inline constexpr std::array<SceneOption, 4> scene_options{{
-    {"--method", "run.method", "rollback|pairwise|exact|auto", "method, in place of the scene's"},
+    {"--method", "run.method", "rollback|pairwise|exact|auto", "method, instead of that of the scene"},
     {"--dt", "run.dt", "X", "time step"},
     {"--t-end", "run.t_end", "T", "simulated time at which the run ends"},
     {"--seed", "seed", "S", "seed of all random numbers"},

@@ -27,8 +27,8 @@ namespace {
 // If mpirun was called by hand, it alone decides the number of processes.
 void check_started_ranks(int wanted, int started) {
   if (wanted == started) return;
-  fail_input("--ranks", fmt::format("{} of them are asked for, and mpirun has started {}", wanted, started),
-             "expected the number that mpirun -n says, or no --ranks");
+  fail_input("--ranks", fmt::format("{} ranks are requested, but mpirun has started {}", wanted, started),
+             "expected the number given to mpirun -n, or no --ranks");
 }
 
 void warn_of_lone_ranks(const CarryOptions& options) {

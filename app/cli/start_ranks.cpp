@@ -45,15 +45,15 @@ constexpr std::array<Setting, 5> mpi_settings{{{"OMPI_MCA_rmaps_base_oversubscri
 std::string path_of_ranks() {
   std::string path = (fs::read_symlink("/proc/self/exe").parent_path() / "carom-mpi").string();
   if (fs::exists(path)) return path;
-  fail_input("--ranks", "this build of Carom knows one rank only",
-             "expected Open MPI, Debian's packages openmpi-bin and libopenmpi-dev, and a build made with it");
+  fail_input("--ranks", "this build of Carom cannot run on several ranks",
+             "expected a build with Open MPI, Debian's packages openmpi-bin and libopenmpi-dev");
 }
 
 // If Open MPI is an environment module, it has to be loaded.
 std::string path_of_mpiexec() {
   std::string path = find_program("mpiexec");
   if (!path.empty()) return path;
-  fail_input("--ranks", "there is no mpiexec in PATH", "expected that of Open MPI, Debian's package openmpi-bin");
+  fail_input("--ranks", "there is no mpiexec in PATH", "expected mpiexec of Open MPI, Debian's package openmpi-bin");
 }
 
 // The environment variable with the process id of the starter, for rank 0.
@@ -124,9 +124,10 @@ int status_of(int wait_status) {
   if (status < 127) return status;
   const std::string why =
       status > 128 ? fmt::format("was killed by signal {}", status - 128) : std::string("could not be started");
-  throw RunError(fmt::format(
-      "one of the ranks {}; the last checkpoint, if the run has written any, is whole: carom resume with its folder",
-      why));
+  throw RunError(
+      fmt::format("one of the ranks {}; the last checkpoint, if the run has written one, is intact: use carom resume "
+                  "with its folder",
+                  why));
 }
 
 // More ranks than cores are useful only for trials. Each needs some 31 MB without disks, so thousands would bring the
@@ -141,7 +142,7 @@ void check_ranks_of_this_machine(int ranks) {
   if (ranks <= most) return;
   fail_input("--ranks",
              fmt::format("{} processes are too many for this machine's {} core{}", ranks, cores, cores == 1 ? "" : "s"),
-             fmt::format("expected at most {}, {} a core; on several machines mpirun starts carom-mpi", most,
+             fmt::format("expected at most {}, {} for each core; on several machines start carom-mpi with mpirun", most,
                          most_ranks_a_core));
 }
 
@@ -187,8 +188,8 @@ std::string warning_of_lone_ranks() {
     if (processes == nullptr || std::atoi(processes) < 2) continue;
     if (own != nullptr && std::atoi(own) != 0) return "";
     return fmt::format(
-        "{} = {}: so many processes of this program each do the whole run; expected carom-mpi in place of carom, which "
-        "shares it among them",
+        "{} = {}: each of these processes does the whole run by itself; expected carom-mpi instead of carom, which "
+        "shares the run among them",
         size, processes);
   }
   return "";

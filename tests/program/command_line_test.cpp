@@ -55,12 +55,12 @@ TEST_F(CommandLine, BadUsageIsOneLineWithStatusTwo) {
 TEST_F(CommandLine, SeveralProcessesOfAProgramThatRunsAloneAreWarnedOf) {
   const std::string run = "$C run small.toml --threads 1 --set run.t_end=0.1 ";
   const std::string warning =
-      " = 4: so many processes of this program each do the whole run; expected carom-mpi in place of carom";
+      " = 4: each of these processes does the whole run by itself; expected carom-mpi instead of carom";
   EXPECT_THAT(shell("OMPI_COMM_WORLD_SIZE=4 OMPI_COMM_WORLD_RANK=0 " + run + "-o a").err,
               HasSubstr("warning: OMPI_COMM_WORLD_SIZE" + warning));
   EXPECT_THAT(shell("PMI_SIZE=4 " + run + "-o b").err, HasSubstr("warning: PMI_SIZE" + warning));
   EXPECT_THAT(shell("PMI_SIZE=4 PMI_RANK=1 " + run + "-o c").err, Not(HasSubstr(warning)));
-  EXPECT_THAT(shell("PMI_SIZE=1 " + run + "-o d").err, Not(HasSubstr("so many processes")));
+  EXPECT_THAT(shell("PMI_SIZE=1 " + run + "-o d").err, Not(HasSubstr("does the whole run by itself")));
   EXPECT_THAT(shell("PMI_SIZE=4 $C resume a --t-end 0.2 --threads 1").err, HasSubstr("PMI_SIZE" + warning));
 }
 
@@ -72,11 +72,11 @@ TEST_F(LongCommandLine, OtherBadUsageOfRunIsOneLineWithStatusTwo) {
       {"run --", "run: no scene file given"},
       {"run small.toml other.toml", "one argument too many, \"other.toml\""},
       {"run small.toml --dt", "--dt: its value is missing"},
-      {"run small.toml --strict=0", "--strict: has a value, and takes none; expected it alone"},
-      {"check small.toml --json=none", "--json: has a value, and takes none; expected it alone"},
+      {"run small.toml --strict=0", "--strict: takes no value; expected the option alone"},
+      {"check small.toml --json=none", "--json: takes no value; expected the option alone"},
       {"run small.toml --dt 0.1x", "--dt: \"0.1x\" is not a number"},
       {"run small.toml --dt nan", "--dt: \"nan\" is not a number"},
-      {"run small.toml --dt 1e-400", "--dt: is 1e-400, which no double holds; expected a number such as 0.01"},
+      {"run small.toml --dt 1e-400", "--dt: is 1e-400, beyond the range of a double; expected a number such as 0.01"},
       {"run small.toml --dt -1", "--dt: is -1; expected a number above 0"},
       {"run small.toml --t-end -1", "--t-end: is -1"},
       {"run small.toml --seed -3", "--seed: is \"-3\""},
@@ -99,7 +99,7 @@ TEST_F(LongCommandLine, OtherBadUsageOfRunIsOneLineWithStatusTwo) {
       {"run small.toml --set output.checkpoint='\"2 days\"'",
        "--set output.checkpoint: is \"2 days\"; expected a time"},
       {"run .", ".: is a directory; expected a scene file"},
-      {"run small.toml --dt \"$UNSET\"", "--dt: what follows it is empty; expected a value; is a variable"},
+      {"run small.toml --dt \"$UNSET\"", "--dt: is followed by an empty argument; expected a value; is a variable"},
   };
   for (const auto& [arguments, what] : cases) expect_error("$C " + arguments, 2, what);
   EXPECT_THAT(files_in(""), ElementsAre("small.toml")) << "no file may be left behind";
@@ -110,7 +110,7 @@ TEST_F(LongCommandLine, BadUsageOfOtherCommandsIsOneLineWithStatusTwo) {
       {"--jsn", "no option \"--jsn\" before the command"},
       {"resume missing", "missing: does not exist; expected a checkpoint"},
       {"resume .", ".: holds no checkpoint"},
-      {"resume small.toml", "small.toml: is no checkpoint of Carom"},
+      {"resume small.toml", "small.toml: is not a checkpoint of Carom"},
       {"resume small.toml --dt 1", "resume: there is no option \"--dt\""},
       {"check small.toml --json --dt x", "--dt: \"x\" is not a number"},
       {"compare missing small.toml", "missing: does not exist"},
@@ -122,7 +122,8 @@ TEST_F(LongCommandLine, BadUsageOfOtherCommandsIsOneLineWithStatusTwo) {
       {"compare a b --times 0:1 --at 2", "--at: cannot be used with --times"},
       {"render .", ".: holds no trajectory.xyz"},
       {"render small.toml", "small.toml:1: "},
-      {"render small.toml", "is no number of disks; expected trajectory.xyz or trajectory.h5 of a run, or its folder"},
+      {"render small.toml",
+       "is not a number of disks; expected trajectory.xyz or trajectory.h5 of a run, or its folder"},
       {"view .", ".: holds no trajectory.xyz"},
       {"view missing", "missing: does not exist"},
       {"view small.toml", "small.toml:1: "},
@@ -193,9 +194,10 @@ TEST_F(CommandLine, MoreRanksThanTheMachineCanBearAreRefused) {
   for (const std::string command : {"run small.toml -o out", "resume out", "sweep small.toml --seeds 2 -o out"}) {
     const Outcome o = shell("PATH=/nonexistent $C " + command + " --ranks 100000");
     EXPECT_EQ(o.status, 2) << command;
-    EXPECT_THAT(o.err, MatchesRegex("carom: error: --ranks: 100000 processes are too many for this machine's [0-9]+ "
-                                    "cores?; expected at most [0-9]+, 8 a core; on several machines mpirun starts "
-                                    "carom-mpi\n"))
+    EXPECT_THAT(
+        o.err,
+        MatchesRegex("carom: error: --ranks: 100000 processes are too many for this machine's [0-9]+ cores?; expected "
+                     "at most [0-9]+, 8 for each core; on several machines start carom-mpi with mpirun\n"))
         << command;
   }
   const unsigned most = 8 * std::max(1U, std::thread::hardware_concurrency());
@@ -235,15 +237,15 @@ TEST_F(CommandLine, HelpAndVersion) {
     EXPECT_THAT(o.err, IsEmpty());
   }
   for (const char* const command : {"run", "resume"}) {
-    EXPECT_THAT(carom(std::string(command) + " --help").out, HasSubstr("over MPI; methods pairwise and exact\n"));
+    EXPECT_THAT(carom(std::string(command) + " --help").out, HasSubstr("over MPI; for methods pairwise and exact\n"));
   }
   EXPECT_THAT(carom("run --help").out, HasSubstr("--engine parallel|reference default parallel; both"));
   EXPECT_THAT(carom("resume --help").out,
-              HasSubstr("--engine parallel|reference default that of the run so far; both"));
+              HasSubstr("--engine parallel|reference default that of the run before; both"));
 }
 
 TEST_F(CommandLine, ThreadsThatTheReferenceDoesNotUseAreTold) {
-  const std::string note = "carom: --threads 2: the reference runs on one\n";
+  const std::string note = "carom: --threads 2: the reference engine uses one thread\n";
   EXPECT_THAT(carom("run small.toml -o a --threads 2 --engine reference").err, HasSubstr(note));
   EXPECT_THAT(carom("run small.toml -o b --threads 2").err, Not(HasSubstr(note)));
 }
@@ -260,8 +262,8 @@ TEST_F(CommandLine, FoldersAreRecognisedByTheirContents) {
   expect_error("$C run out", 2, "out: is a directory; expected a scene file, such as the out/scene.toml of the run");
   std::filesystem::create_directories(at("half/carom-unfinished"));
   expect_error("$C compare out half", 2,
-               "half: holds a run that is not finished; expected a finished one (carom resume "
-               "half), or a trajectory in half/carom-unfinished");
+               "half: holds a run that is not finished; expected a finished run (carom resume half), or a trajectory "
+               "in half/carom-unfinished");
 }
 
 TEST_F(LongCommandLine, ChartWritesAllItsFilesOrNone) {
@@ -288,12 +290,12 @@ TEST_F(LongCommandLine, ChartWritesAllItsFilesOrNone) {
 
 TEST_F(CommandLine, CheckSaysWhatAnAccuracyNeeds) {
   const Outcome plain = carom("check small.toml");
-  EXPECT_THAT(plain.out, HasSubstr("--accuracy 1e-3 says"));
+  EXPECT_THAT(plain.out, HasSubstr("--accuracy 1e-3 finds"));
   const Outcome o = carom("check small.toml --accuracy 1e-4");
   EXPECT_EQ(o.status, 0) << o.err;
   EXPECT_THAT(o.out, HasSubstr("for an error of 0.0001 in averages"));
-  EXPECT_THAT(o.out, HasSubstr("take it with --method "));
-  EXPECT_THAT(o.out, Not(HasSubstr("--accuracy 1e-3 says")));
+  EXPECT_THAT(o.out, HasSubstr("use it with --method "));
+  EXPECT_THAT(o.out, Not(HasSubstr("--accuracy 1e-3 finds")));
   const Json j = Json::parse(carom("check small.toml --accuracy 1e-4 --json").out);
   EXPECT_EQ(j["choice"]["offers"].size(), 2U);
   EXPECT_EQ(j["choice"]["method"], "exact");
