@@ -38,7 +38,7 @@ typedef enum carom_status {
   CAROM_OK = 0,
   CAROM_FAILED = 1,   /* of the machine: no memory, a file that cannot be written */
   CAROM_INPUT = 2,    /* a bad scene, a number out of range, an array too short, a null pointer */
-  CAROM_PHYSICS = 3,  /* the method cannot go on (a step far too long, inelastic collapse) */
+  CAROM_PHYSICS = 3,  /* the method cannot continue (a step far too long, inelastic collapse) */
   CAROM_NO_ROOM = 4,  /* a disk that would overlap another, an inner wall or a side that has moved in */
   CAROM_NOT_FOUND = 5 /* no disk of this id, or none that a query asks for */
 } carom_status;

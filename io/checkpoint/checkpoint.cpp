@@ -89,7 +89,7 @@ void write_content(const ByteWriter::Sink& sink, const RunRecord& record, const 
       left -= some.size();
       sink(reinterpret_cast<const char*>(some.data()), some.size());
     });
-    if (left != 0) throw std::logic_error("a state in pieces has not the entries that it said");
+    if (left != 0) throw std::logic_error("the pieces of a state do not have the announced number of entries");
   };
   ByteWriter writer(sink, [&](const void* there) {
     for (const StateList list : all_state_lists) {
@@ -117,9 +117,11 @@ constexpr const char* damaged = "is damaged: it was cut short or changed after i
 
 void check_header(const Header& header, const std::string& name) {
   if (header.magic != Header{}.magic)
-    refuse(name, "is no checkpoint of Carom, or a damaged one; expected a checkpoint.carom, or the folder of a run");
+    refuse(name, "is not a checkpoint of Carom, or a damaged one; expected a checkpoint.carom, or the folder of a run");
   if (header.byte_order == 0x0807060504030201ULL)
-    refuse(name, "comes from a machine of the other byte order; expected to go on with it there");
+    refuse(
+        name,
+        "comes from a machine with the other byte order; expected a checkpoint of this machine, or to resume it there");
 }
 
 // size: of all. Precondition: the checksum is right.
@@ -169,11 +171,11 @@ void check_state(const State& state) {
     if ((d.*column.entries).size() != entries) throw BadBytes(misfit(column));
   });
   const auto born = [&](DiskId id) { return id < state.next_id; };
-  if (!std::all_of(d.id.begin(), d.id.end(), born)) throw BadBytes("has a disk that was never made");
+  if (!std::all_of(d.id.begin(), d.id.end(), born)) throw BadBytes("has a disk with an id that was never given");
   const std::size_t times = state.last_contact.size();
-  if (times > state.next_id) throw BadBytes("has contact times of disks that were never made");
+  if (times > state.next_id) throw BadBytes("has contact times of ids that were never given");
   const std::size_t hits = state.thermal_hits.size();
-  if (hits > state.next_id) throw BadBytes("has reflections of disks that were never made");
+  if (hits > state.next_id) throw BadBytes("has reflections of ids that were never given");
 }
 
 // Checks that all files lie in the run's folder.
@@ -189,7 +191,7 @@ template <class Then>
 void decode_into(Checkpoint& checkpoint, ByteReader reader, const std::string& name, Then&& then) {
   try {
     reader(checkpoint.record, checkpoint.state);
-    if (reader.left() != 0) throw BadBytes("goes on where it should end");
+    if (reader.left() != 0) throw BadBytes("holds more data than it should");
     check_state(checkpoint.state);
     check_names(checkpoint.record.outputs);
     then();

@@ -37,7 +37,8 @@ namespace {
 
 [[noreturn]] void fail_without_checkpoint(const std::string& name, const fs::path& folder) {
   if (is_being_written(folder)) {
-    fail_input(name, "another run is writing there, and has no checkpoint yet", "expected one that has stopped");
+    fail_input(name, "another run is writing there, and has no checkpoint yet",
+               "expected the folder of a run that has stopped");
   }
   std::error_code error;
   if (!fs::exists(folder / "summary.json", error)) {
@@ -45,13 +46,13 @@ namespace {
   }
   const fs::path previous = folder / previous_checkpoint_name;
   if (fs::exists(previous, error)) {
-    fail_input(name, fmt::format("has lost its {}", checkpoint_name),
-               fmt::format("the one before it is there: carom resume {} --t-end T", shell_word(previous.string())));
+    fail_input(name, fmt::format("lacks its {}", checkpoint_name),
+               fmt::format("the earlier one is there: carom resume {} --t-end T", shell_word(previous.string())));
   }
-  fail_input(name, "holds a finished run that kept no checkpoint",
-             fmt::format("to go further, run it once more with one: carom run {} --set output.checkpoint=600 --t-end T "
-                         "-o DIR",
-                         shell_word((folder / "scene.toml").string())));
+  fail_input(
+      name, "holds a finished run that kept no checkpoint",
+      fmt::format("to go further, run it again with one: carom run {} --set output.checkpoint=600 --t-end T -o DIR",
+                  shell_word((folder / "scene.toml").string())));
 }
 
 }  // namespace
@@ -88,10 +89,10 @@ auto read_at(const CheckpointPlace& place, Read&& read) {
     } catch (const InputError&) {
       // For a checkpoint of another version the message names the program that can read it.
       if (std::string_view(error.what()).find("is damaged") == std::string_view::npos) throw error;
-      throw InputError(fmt::format("{}; there is no whole one before it, so run the scene again", error.what()));
+      throw InputError(fmt::format("{}; there is no intact earlier one, so run the scene again", error.what()));
     }
     throw InputError(
-        fmt::format("{}; the one before it is whole: carom resume {}", error.what(), shell_word(previous.string())));
+        fmt::format("{}; the earlier one is intact: carom resume {}", error.what(), shell_word(previous.string())));
   }
 }
 

@@ -33,7 +33,7 @@ StoredDisks::StoredDisks(std::ifstream file, std::string name, const StoredColum
   for (std::size_t begin = 0; begin < size_; begin += disks_of_a_read) {
     read_column(columns_.back(), begin, std::min(size_, begin + disks_of_a_read), ids);
     const bool born = std::all_of(ids.begin(), ids.end(), [&](DiskId id) { return id < next_id; });
-    if (!born) throw BadBytes("has a disk that was never made");
+    if (!born) throw BadBytes("has a disk with an id that was never given");
   }
 }
 

@@ -95,7 +95,7 @@ void check_at_least(const std::string& path, std::uint64_t bytes) {
   if (bytes == 0 && std::filesystem::exists(path, error)) return;  // a folder, too
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error) {
-    throw InputError(fmt::format("{}: {}; expected the file that the checkpoint goes on with", path, error.message()));
+    throw InputError(fmt::format("{}: {}; expected the file that the resumed run continues", path, error.message()));
   }
   if (size >= bytes) return;
   throw InputError(

@@ -154,7 +154,7 @@ void check_writable(const fs::path& name, const fs::path& folder) {
 }
 
 [[noreturn]] void fail_locked(const fs::path& name) {
-  throw InputError(fmt::format("{}: another run is writing there; expected a folder of its own (-o)", name.string()));
+  throw InputError(fmt::format("{}: another run is writing there; expected another folder (-o)", name.string()));
 }
 
 [[noreturn]] void fail(const char* what, const fs::path& path, const std::error_code& error) {
@@ -171,7 +171,7 @@ void check_place_of_result(const fs::path& name, const char* result, const fs::p
   }
   // A file does not replace a folder; the end of a run would be too late to find that out. A link is replaced itself.
   if (std::string_view(result) != "frames" && fs::is_directory(fs::symlink_status(place, error))) {
-    throw InputError(fmt::format("{}: is a folder, where the run's {} would go; choose another folder with -o",
+    throw InputError(fmt::format("{}: is a folder, but the run writes its {} there; choose another folder with -o",
                                  (name / result).string(), result));
   }
   if (!force && fs::exists(place, error)) {
@@ -190,7 +190,7 @@ void check_unfinished(const fs::path& name, bool force) {
   if (is_locked(unfinished)) fail_locked(name);
   if (force) return;
   const std::string remedy = fs::exists(unfinished / checkpoint_name, error)
-                                 ? fmt::format("go on with carom resume {}, ", shell_word(name.string()))
+                                 ? fmt::format("resume it with carom resume {}, ", shell_word(name.string()))
                                  : "";
   throw InputError(
       fmt::format("{}: another run is writing there, or stopped before its end ({}); {}choose another "
@@ -230,7 +230,7 @@ void check_output_folder(const fs::path& name, const fs::path& input, bool force
   const fs::path folder = normal(name);
   std::error_code error;
   if (fs::absolute(folder, error) == fs::absolute(folder, error).root_path()) {
-    throw InputError(fmt::format("{}: is the root of all folders; expected one of the run's own, such as -o out/{}",
+    throw InputError(fmt::format("{}: is the root of all folders; expected a folder for this run, such as -o out/{}",
                                  name.string(), input.stem().string()));
   }
   // The status is read only once: another run that checks whether it may write there removes again what it made.
@@ -317,7 +317,7 @@ OutputFolder::OutputFolder(const fs::path& folder)
   }
   if (error)
     throw InputError(
-        fmt::format("{}: cannot be written to: {}; go on in another folder with -o", name(), error.message()));
+        fmt::format("{}: cannot be written to: {}; resume in another folder with -o", name(), error.message()));
   lock();
 }
 

@@ -60,7 +60,7 @@ MovieWriter::MovieWriter(const std::string& folder, FrameStyle style, const Movi
       marked_(true),
       frames_(from.frames) {
   if (!from.single_frames && ffmpeg_.empty()) {
-    throw RunError(fmt::format("cannot go on with {}: ffmpeg is not installed here", path(file_name_)));
+    throw RunError(fmt::format("cannot continue {}: ffmpeg is not installed here", path(file_name_)));
   }
   if (from.single_frames) {
     for (Count k = frames_ + 1; fs::remove(frame_path(k)); ++k) {

@@ -61,7 +61,7 @@ const std::string& with_heading(const std::string& path, const Scene& scene) {
   std::ifstream file(path);
   std::string heading;
   if (std::getline(file, heading) && !file.eof() && heading != heading_of(scene)) {
-    fail_input(path, "has other columns than this version of Carom writes", "expected the version that began it");
+    fail_input(path, "has other columns than this version of Carom writes", "expected the version that began the file");
   }
   return path;
 }

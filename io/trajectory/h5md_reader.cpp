@@ -189,7 +189,8 @@ void H5mdReader::File::read_frame(Count next, TrajectoryFrame& frame) {
     const Disk disk{xy[at], xy[at + 1], vxy[at], vxy[at + 1], radii[p], masses[p], ids[p], has_spin ? spins[p] : 0.0};
     push_back(frame.disks, disk, {.radius = true, .mass = true, .spin = has_spin});
     for (const double value : {disk.x, disk.y, disk.vx, disk.vy, disk.radius, disk.mass, disk.spin}) {
-      if (!std::isfinite(value)) fail(fmt::format("frame {}: disk {} has a value that is no number", next + 1, ids[p]));
+      if (!std::isfinite(value))
+        fail(fmt::format("frame {}: disk {} has a value that is not a number", next + 1, ids[p]));
     }
   }
 }

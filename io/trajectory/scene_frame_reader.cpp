@@ -67,7 +67,7 @@ std::vector<bool> members_of(const std::string& path, const TrajectoryFrame& fra
                              const std::string& name) {
   std::vector<bool> members(frame.disks.size(), true);
   if (name.empty()) return members;
-  const std::string unknown = fmt::format("tells of no group \"{}\"", name);
+  const std::string unknown = fmt::format("does not know a group \"{}\"", name);
   if (!scene) fail_input(path, unknown, "expected the folder of a run, with its scene.toml");
   std::string names;
   for (const NamedGroup& group : named_groups(*scene)) {

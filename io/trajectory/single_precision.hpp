@@ -14,10 +14,9 @@ namespace carom {
 inline float single_of(double value, std::string_view file) {
   const auto single = static_cast<float>(value);
   if (std::isinf(single)) {
-    throw InputError(
-        fmt::format("{} in single precision has no place for {:g}: it ends at 3.4e38; expected "
-                    "output.precision = \"double\"",
-                    file, value));
+    throw InputError(fmt::format(
+        "{} in single precision cannot hold {:g}: it ends at 3.4e38; expected output.precision = \"double\"", file,
+        value));
   }
   return single;
 }

@@ -42,7 +42,7 @@ double XyzReader::number(std::string_view text) const {
   double value = 0.0;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
   if (result.ec != std::errc{} || result.ptr != text.data() + text.size() || !std::isfinite(value)) {
-    fail(fmt::format("'{}' is no finite number", text));
+    fail(fmt::format("'{}' is not a finite number", text));
   }
   return value;
 }
@@ -132,7 +132,7 @@ void XyzReader::read_layout(std::string_view properties) {
     const std::string_view width_text = next_word();
     const std::optional<std::size_t> width = width_of(width_text);
     if (!width || layout.all > most_columns) {
-      refuse_properties(fmt::format("'{}' is no number of columns", width_text));
+      refuse_properties(fmt::format("'{}' is not a number of columns", width_text));
     }
     for (const Property& property : Property::known) {
       if (name == property.name) layout.*property.columns = {layout.all, *width};
@@ -236,7 +236,7 @@ void XyzReader::sort_by_id(XyzFrame& frame) const {
   const auto twice = std::adjacent_find(order.begin(), order.end(), same);
   if (twice != order.end()) {
     const std::size_t line = line_number_ - d.size() + 1 + std::max(twice[0], twice[1]);
-    fail_input(fmt::format("{}:{}", path_, line), fmt::format("disk {} stands twice in its frame", d.id[*twice]));
+    fail_input(fmt::format("{}:{}", path_, line), fmt::format("disk {} appears twice in its frame", d.id[*twice]));
   }
   const auto sort = [&](auto& column) {
     const auto as_read = column;
@@ -276,7 +276,7 @@ bool XyzReader::read_count(std::size_t& count) {
   // Editors and other programs leave blank lines at a file's end.
   while (line_number_ > 1 && words(line_).empty()) {
     if (!next_line()) return false;
-    if (!words(line_).empty()) fail("the line before is blank; expected a frame, or the file's end");
+    if (!words(line_).empty()) fail("the line before is blank; expected a frame, or the end of the file");
   }
   const auto words_of_line = words(line_);
   const std::string_view text = words_of_line.size() == 1 ? words_of_line[0] : std::string_view{};
@@ -284,7 +284,7 @@ bool XyzReader::read_count(std::size_t& count) {
   if (result.ec != std::errc{} || result.ptr != text.data() + text.size()) {
     const char* const expected =
         line_number_ == 1 ? "; expected trajectory.xyz or trajectory.h5 of a run, or its folder" : "";
-    fail(fmt::format("'{}' is no number of disks{}", line_.substr(0, 40), expected));
+    fail(fmt::format("'{}' is not a number of disks{}", line_.substr(0, 40), expected));
   }
   return true;
 }

@@ -17,7 +17,7 @@ __all__ = ["Scene", "run", "Simulation", "resume", "Result", "Column", "Trajecto
            "SceneError", "PhysicsError", "RunError"]
 
 SceneError.__doc__ = """A bad scene, argument or file: one line, with the file, the line, the key and what was expected."""
-PhysicsError.__doc__ = """The method cannot go on: a step far too long, an inelastic collapse, a warning with strict=True."""
+PhysicsError.__doc__ = """The method cannot continue: a step far too long, an inelastic collapse, a warning with strict=True."""
 RunError.__doc__ = """The machine failed: a full disk, a plot that could not be drawn."""
 
 # Everything belongs to this package, wherever it is defined: in messages, help() and pickles.

@@ -181,7 +181,7 @@ class Result:
             with open(file, encoding="utf-8") as text:
                 summary = json.load(text)
         except (OSError, ValueError) as error:
-            reason = error.strerror if isinstance(error, OSError) else "is no JSON"
+            reason = error.strerror if isinstance(error, OSError) else "is not JSON"
             raise SceneError(f"{file}: {reason}; expected the folder of a run that is done") from None
         for key, kind in _always_there.items():
             if not isinstance(summary, dict) or not isinstance(summary.get(key), kind):

@@ -47,7 +47,7 @@ EngineChoice choose_engine(const std::string& engine, std::optional<int> threads
   if (engine != "reference") {
     fail_input("--engine", fmt::format("there is no engine {}", in_quotes(engine)), expected_one_of(engines, engine));
   }
-  if (lead != nullptr) fail_input("--ranks", "the reference runs on one", "expected --engine parallel");
+  if (lead != nullptr) fail_input("--ranks", "the reference engine runs on one rank", "expected --engine parallel");
   return {"reference", 1};
 }
 

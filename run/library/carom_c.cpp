@@ -60,7 +60,7 @@ const char* carom_status_text(carom_status status) {
     case CAROM_INPUT:
       return "bad input";
     case CAROM_PHYSICS:
-      return "the method cannot go on";
+      return "the method cannot continue";
     case CAROM_NO_ROOM:
       return "no room";
     case CAROM_NOT_FOUND:

@@ -87,8 +87,8 @@ std::string RunningAnalysis::take_warning() {
     const std::vector<std::string_view> names = followed_names(scene_);
     if (!names.empty()) {
       return fmt::format(
-          "analysis: {} {} of the disks of the first sample, and at t = {:g} there are none, so that nothing is "
-          "measured; use a later analysis.start",
+          "analysis: {} {} measured on the disks of the first sample, but at t = {:g} there are none; use a later "
+          "analysis.start",
           fmt::join(names, ", "), names.size() == 1 ? "is" : "are", record_.series.time.front());
     }
   }

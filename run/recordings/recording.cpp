@@ -48,12 +48,12 @@ std::unique_ptr<TrajectoryReader> open_frames(const Recording& recording) {
 
 void fail_replaced(const Recording& recording) {
   fail_input(recording.trajectory.string(), "was replaced while it was read",
-             "expected it to stay so long; the same command reads what is there now");
+             "expected a file that does not change; repeat the command to read the new one");
 }
 
 std::string note_of_another_run(const Recording& recording) {
   if (recording.growing || !is_being_written(recording.folder)) return "";
-  return fmt::format("{} is of the run before the one that is going on in {}", recording.trajectory.string(),
+  return fmt::format("{} belongs to an earlier run than the one in progress in {}", recording.trajectory.string(),
                      (recording.folder / unfinished_name).string());
 }
 

@@ -48,17 +48,17 @@ void check_end(const CheckpointPlace& place, const Scene& before, const Scene& n
   if (t_end == before.run.t_end) return;
   const std::string told = fmt::format("is {}", t_end);
   if (t_end < state.time)
-    fail_input("--t-end", told, fmt::format("expected {}, the checkpoint's time, or more", state.time));
+    fail_input("--t-end", told, fmt::format("expected at least {}, the time of the checkpoint", state.time));
   const Count begun = begun_steps(before, state);
   if (begun == 0 || t_end == state.time) return;
   const StepClock old_clock = make_step_clock(before.run.dt, before.run.t_end);
   const StepClock new_clock = make_step_clock(now.run.dt, t_end);
   if (new_clock.steps < begun || (now.run.method == Method::pairwise && new_clock.steps == begun)) {
-    fail_input("--t-end", told, fmt::format("expected a step of {} or more beyond {}", now.run.dt, state.time));
+    fail_input("--t-end", told, fmt::format("expected at least a step of {} after {}", now.run.dt, state.time));
   }
   if (old_clock.length(begun - 1) == new_clock.length(begun - 1)) return;
   fail_input(
-      "--t-end", fmt::format("{}, but the run's last step was cut short to end at {}", told, before.run.t_end),
+      "--t-end", fmt::format("{}, but the last step of the run was shortened to end at {}", told, before.run.t_end),
       fmt::format("expected an earlier checkpoint, or a new run to the later end: carom run {} --t-end {} -o DIR",
                   shell_word(scene_file_of(place, now)), t_end));
 }
@@ -81,14 +81,14 @@ void check_resumable(const ResumeFrom& from, const Scene& before, const Scene& n
   const CheckpointPlace& place = from.place;
   if (checkpoint.state.sources.size() != now.sources.size()) {
     fail_input(name, "holds a state that does not belong to its scene",
-               "expected a checkpoint as Carom wrote it; the one before may serve (checkpoint.previous.carom)");
+               "expected a checkpoint as Carom wrote it; try the earlier one, checkpoint.previous.carom");
   }
   check_end(place, before, now, checkpoint.state);
   check_files(place, checkpoint.record.outputs);
   if (place.finished && checkpoint.state.time >= now.run.t_end && fs::exists(place.folder / "summary.json") &&
       !lacks_plots(now, place.folder)) {
-    fail_input(name, fmt::format("the run came to its end at t = {}", checkpoint.state.time),
-               fmt::format("expected --t-end beyond that, such as carom resume {} --t-end {}", shell_word(name),
+    fail_input(name, fmt::format("the run is finished: it ended at t = {}", checkpoint.state.time),
+               fmt::format("expected a later --t-end, as in carom resume {} --t-end {}", shell_word(name),
                            2.0 * checkpoint.state.time));
   }
 }

@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 // Throws for what the machine prevented, with the command that continues the run if there is a checkpoint.
 [[noreturn]] void fail_resumable(const std::string& what, const CheckpointKeeper& keeper) {
   const std::string command = keeper.resume_command();
-  throw RunError(command.empty() ? what : fmt::format("{}; the last checkpoint is whole: {}", what, command));
+  throw RunError(command.empty() ? what : fmt::format("{}; the last checkpoint is intact: {}", what, command));
 }
 
 // The record of a run that begins, or of one that is continued.

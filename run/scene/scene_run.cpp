@@ -37,7 +37,7 @@ std::string lost_pictures(const Scene& scene, const RunFiles& files, const std::
   if (!movie.empty()) add(movie);
   if (!lost_view.empty()) add(lost_view);
   if (text.empty()) return text;
-  add(fmt::format("all else of the run is in {}", folder));
+  add(fmt::format("all other results are in {}", folder));
   if (resumable && !files.outputs.lost_plots().empty()) add(fmt::format("carom resume {} draws the plots", word));
   if (!movie.empty() && scene.output.trajectory != TrajectoryFormat::none) {
     add(fmt::format("carom render {} makes the movie", word));
@@ -178,7 +178,7 @@ void SceneRun::keep_stopped(const PhysicsError& error) {
     last_state = fmt::format("; {}", why.what());
   }
   files_->outputs.finish(RunEnd::early);
-  throw PhysicsError(fmt::format("{}; the run up to there is kept in {}{}", error.what(),
+  throw PhysicsError(fmt::format("{}; the results up to there are kept in {}{}", error.what(),
                                  files_->folder.keep_unfinished(), last_state));
 }
 

@@ -88,23 +88,24 @@ TEST_F(CheckpointFolder, WhereThereIsNoneItSaysWhatThereIs) {
   EXPECT_THAT(complaint(), EndsWith("run: holds no checkpoint; expected a checkpoint, or the folder of a run that "
                                     "wrote one"));
   folder_.write("run/summary.json", "{}");
-  EXPECT_THAT(complaint(), HasSubstr("run: holds a finished run that kept no checkpoint; to go further, run it once "
-                                     "more with one: carom run "));
+  EXPECT_THAT(
+      complaint(),
+      HasSubstr("run: holds a finished run that kept no checkpoint; to go further, run it again with one: carom run "));
   save(run_ / previous_checkpoint_name);
-  EXPECT_THAT(complaint(), HasSubstr("run: has lost its checkpoint.carom; the one before it is there: carom resume "));
+  EXPECT_THAT(complaint(), HasSubstr("run: lacks its checkpoint.carom; the earlier one is there: carom resume "));
 }
 
 TEST_F(CheckpointFolder, WhereARunGoesOnItSaysSo) {
   const OutputFolder going_on(run_, folder_.write("scene.toml", ""), true);
-  EXPECT_THAT(complaint(), EndsWith("run: another run is writing there, and has no checkpoint yet; expected one that "
-                                    "has stopped"));
+  EXPECT_THAT(complaint(), EndsWith("run: another run is writing there, and has no checkpoint yet; expected the folder "
+                                    "of a run that has stopped"));
 }
 
 TEST_F(CheckpointFolder, TheOneBeforeIsNamedWhereItHelps) {
   folder_.write("run/" + std::string(unfinished_name) + "/" + checkpoint_name, "damaged");
   EXPECT_THAT(complaint(), Not(HasSubstr("before")));
   save(unfinished_ / previous_checkpoint_name);
-  EXPECT_THAT(complaint(), HasSubstr("; the one before it is whole: carom resume "));
+  EXPECT_THAT(complaint(), HasSubstr("; the earlier one is intact: carom resume "));
   const std::string scene = folder_.write("run/" + std::string(unfinished_name) + "/scene.toml", "[box]\n");
   EXPECT_THAT(complaint_of([&] { read_checkpoint_at(find_checkpoint(scene)); }),
               EndsWith("expected a checkpoint.carom, or the folder of a run"))
@@ -185,19 +186,19 @@ TEST_F(CheckpointBytes, ItsLengthIsTheOneThatItSays) {
   std::string longer = whole;
   longer.insert(longer.size() - 16, std::string(8, '\0'));
   EXPECT_THAT(complaint(signed_again(longer, content)), HasSubstr("is damaged"));
-  EXPECT_THAT(complaint(signed_again(longer, content + 8)), HasSubstr("goes on where it should end"));
+  EXPECT_THAT(complaint(signed_again(longer, content + 8)), HasSubstr("holds more data than it should"));
 }
 
 TEST_F(CheckpointBytes, NothingIsOfDisksThatWereNeverMade) {
   State state = two_disks();
   state.last_contact = {1.0, 2.0, 3.0};
-  EXPECT_THAT(complaint({}, state), HasSubstr("has contact times of disks that were never made"));
+  EXPECT_THAT(complaint({}, state), HasSubstr("has contact times of ids that were never given"));
   state = two_disks();
   state.thermal_hits = {1, 2, 3};
-  EXPECT_THAT(complaint({}, state), HasSubstr("has reflections of disks that were never made"));
+  EXPECT_THAT(complaint({}, state), HasSubstr("has reflections of ids that were never given"));
   state = two_disks();
   state.disks.id = {0, 2};
-  EXPECT_THAT(complaint({}, state), HasSubstr("has a disk that was never made"));
+  EXPECT_THAT(complaint({}, state), HasSubstr("has a disk with an id that was never given"));
   state = two_disks();
   state.disks.spin = {1.0, 2.0};
   EXPECT_THAT(complaint({}, state), HasSubstr("has spins of other disks"));

@@ -235,7 +235,7 @@ TEST_F(CheckpointFile, ADiskThatWasNeverMadeIsRefusedBeyondTheFirstPiece) {
     State other = state;
     other.disks.id[other.disks.size() - back] = state.next_id;
     write_checkpoint(path(), full_record(), other);
-    EXPECT_THAT(complaint_of(path()), testing::HasSubstr("has a disk that was never made"));
+    EXPECT_THAT(complaint_of(path()), testing::HasSubstr("has a disk with an id that was never given"));
   }
 }
 
@@ -293,10 +293,10 @@ std::string with_header(std::string file, std::size_t at, std::uint64_t word) {
 }
 
 TEST_F(CheckpointFile, SaysWhatIsWrong) {
-  EXPECT_THAT(complaint("title = \"a scene\"\n"), HasSubstr("is no checkpoint of Carom"));
-  EXPECT_THAT(complaint(""), HasSubstr("is no checkpoint of Carom"));
+  EXPECT_THAT(complaint("title = \"a scene\"\n"), HasSubstr("is not a checkpoint of Carom"));
+  EXPECT_THAT(complaint(""), HasSubstr("is not a checkpoint of Carom"));
   EXPECT_THAT(complaint(whole_.substr(0, 100)), HasSubstr("is damaged"));
-  EXPECT_THAT(complaint(with_header(whole_, 8, 0x0807060504030201ULL)), HasSubstr("of the other byte order"));
+  EXPECT_THAT(complaint(with_header(whole_, 8, 0x0807060504030201ULL)), HasSubstr("with the other byte order"));
   EXPECT_THAT(complaint(with_header(whole_, 16, 77)), HasSubstr("has format 77, and this version of Carom reads"));
   EXPECT_THROW(read_checkpoint(folder_.path().string()), InputError);
   EXPECT_THROW(read_checkpoint("/nonexistent/checkpoint.carom"), InputError);
@@ -312,7 +312,8 @@ TEST_F(CheckpointFile, ContentThatContradictsItselfIsRefused) {
   };
   EXPECT_EQ(refused([](RunRecord&, State&) {}), "");
   EXPECT_THAT(refused([](RunRecord&, State& s) { s.disks.vx.pop_back(); }), HasSubstr("columns of different lengths"));
-  EXPECT_THAT(refused([](RunRecord&, State& s) { s.disks.id[0] = 5; }), HasSubstr("a disk that was never made"));
+  EXPECT_THAT(refused([](RunRecord&, State& s) { s.disks.id[0] = 5; }),
+              HasSubstr("a disk with an id that was never given"));
   EXPECT_THAT(refused([](RunRecord&, State& s) { s.disks.x.clear(); }), HasSubstr("columns of different lengths"));
   EXPECT_THAT(refused([](RunRecord&, State& s) { s.disks.mass.push_back(1.0); }),
               HasSubstr("columns of different lengths"));
@@ -401,10 +402,10 @@ TEST_F(CheckpointFile, OneThatIsDamagedNamesTheOneBefore) {
     }
     return std::string();
   };
-  EXPECT_THAT(complaint_of(), HasSubstr("the one before it is whole: carom resume "));
+  EXPECT_THAT(complaint_of(), HasSubstr("the earlier one is intact: carom resume "));
   EXPECT_THAT(complaint_of(), HasSubstr(previous_checkpoint_name));
   folder_.write(previous_checkpoint_name, "");
-  EXPECT_THAT(complaint_of(), ::testing::Not(HasSubstr("the one before")));
+  EXPECT_THAT(complaint_of(), ::testing::Not(HasSubstr("the earlier one")));
 }
 
 }  // namespace

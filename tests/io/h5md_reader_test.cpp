@@ -177,9 +177,8 @@ TEST_F(H5mdFile, PartsThatDoNotGoTogetherAreNamed) {
 
 TEST_F(H5mdFile, ValuesThatNoDiskHasAreNamed) {
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-  const std::string no_number = path_ +
-                                ": frame 2: disk 3 has a value that is no number; expected a trajectory.h5 "
-                                "that Carom wrote";
+  const std::string no_number =
+      path_ + ": frame 2: disk 3 has a value that is not a number; expected a trajectory.h5 that Carom wrote";
   for (const char* const name : {"position/value", "velocity/value"}) {
     for (const hsize_t component : {0U, 1U}) {
       write(rough_scene(), 2);
@@ -193,7 +192,7 @@ TEST_F(H5mdFile, ValuesThatNoDiskHasAreNamed) {
   for (const char* const name : {"radius", "mass"}) {
     write(rough_scene(), 2);
     put(name, {3}, std::numeric_limits<double>::infinity());
-    EXPECT_THAT(error(), HasSubstr("frame 1: disk 3 has a value that is no number")) << name;
+    EXPECT_THAT(error(), HasSubstr("frame 1: disk 3 has a value that is not a number")) << name;
   }
   Scene deep = rough_scene();
   deep.output.dimensions = 3;

@@ -96,8 +96,9 @@ TEST_F(OutputFolderTest, AFolderWhereAFileWouldGoIsForeseen) {
   fs::create_directories(folder / "movie.mp4");
   write_file(folder / "movie.mp4" / "keep", "mine");
   for (const bool force : {false, true}) {
-    EXPECT_THAT(refusal(folder, force), HasSubstr("out/movie.mp4: is a folder, where the run's movie.mp4 would go; "
-                                                  "choose another folder with -o"));
+    EXPECT_THAT(
+        refusal(folder, force),
+        HasSubstr("out/movie.mp4: is a folder, but the run writes its movie.mp4 there; choose another folder with -o"));
   }
   EXPECT_THROW(run(folder, "second", true), InputError);
   EXPECT_EQ(text(folder / "summary.json"), "first");
@@ -173,7 +174,7 @@ TEST_F(OutputFolderTest, AStoppedRunIsGoneOnWithWhereItCanBe) {
   fs::create_directories(unfinished);
   EXPECT_THAT(refusal(base_ / "out", false), ::testing::Not(HasSubstr("carom resume")));
   write_file(unfinished / "checkpoint.carom", "");
-  EXPECT_THAT(refusal(base_ / "out", false), HasSubstr("); go on with carom resume "));
+  EXPECT_THAT(refusal(base_ / "out", false), HasSubstr("); resume it with carom resume "));
 }
 
 // Resuming a stopped run. If the test may write anywhere, a process of another user is used.
@@ -199,7 +200,7 @@ TEST_F(OutputFolderTest, WhereNoFileCanBeWrittenNoRunGoesOn) {
   for (const fs::path& place : {unfinished, out}) {
     fs::permissions(place, closed);
     EXPECT_EXIT(go_on(), ::testing::ExitedWithCode(2),
-                "out: cannot be written to: Permission denied; go on in another folder with -o");
+                "out: cannot be written to: Permission denied; resume in another folder with -o");
     EXPECT_EQ(std::distance(fs::directory_iterator(unfinished), {}), 1) << "only the lock";
     fs::permissions(place, open);
   }
@@ -208,7 +209,7 @@ TEST_F(OutputFolderTest, WhereNoFileCanBeWrittenNoRunGoesOn) {
 
 TEST_F(OutputFolderTest, TheRootAndTheCurrentFolderAreKnown) {
   for (const char* const root : {"/", "//", "/tmp/.."}) {
-    EXPECT_THAT(refusal(root, true), HasSubstr(": is the root of all folders; expected one of the run's own")) << root;
+    EXPECT_THAT(refusal(root, true), HasSubstr(": is the root of all folders; expected a folder for this run")) << root;
   }
   const fs::path here = fs::current_path();
   fs::create_directories(base_ / "here");

@@ -99,7 +99,7 @@ TEST_F(SceneFrames, ShowsOneGroupAlone) {
       "trajectory.xyz",
       "3\nLattice=\"10 0 0 0 8 0 0 0 1\" pbc=\"F F F\" Properties=pos:R:2:velo:R:2:radius:R:1:mass:R:1:id:I:1 Time=0\n"
       "1 2 0 0 0.25 1 0\n3 2 0 0 0.5 1 2\n5 2 0 0 0.75 1 3\n");
-  EXPECT_EQ(message("a"), file + ": tells of no group \"a\"; expected the folder of a run, with its scene.toml");
+  EXPECT_EQ(message("a"), file + ": does not know a group \"a\"; expected the folder of a run, with its scene.toml");
   const auto block = [](const char* name, int x, const char* more) {
     return fmt::format("[[disks]]\nname = \"{}\"\ncount = 1\npositions = [[{}, 2]]\nradius = 0.25\n{}", name, x, more);
   };
@@ -111,8 +111,8 @@ TEST_F(SceneFrames, ShowsOneGroupAlone) {
   EXPECT_THAT(radii("b"), ElementsAre(0.5));
   EXPECT_THAT(radii("sources"), ElementsAre(0.75));
   EXPECT_THAT(radii(""), ElementsAre(0.25, 0.5, 0.75));
-  EXPECT_EQ(message("c"), file + ": tells of no group \"c\"; expected one of a, b, sources");
-  EXPECT_EQ(message("pegs"), file + ": tells of no group \"pegs\"; expected one of a, b, sources");
+  EXPECT_EQ(message("c"), file + ": does not know a group \"c\"; expected one of a, b, sources");
+  EXPECT_EQ(message("pegs"), file + ": does not know a group \"pegs\"; expected one of a, b, sources");
 }
 
 // The velocities written by a run with shear include the flow. Its rate is taken from the scene beside the file, if

@@ -178,17 +178,17 @@ precision = "single"
   const std::string command = CAROM_PROGRAM " run " + scene + " --quiet --force -o " + (folder.path() / "out").string();
   const auto [status, text] = shell(command);
   EXPECT_EQ(status, 2);
-  EXPECT_THAT(text, HasSubstr("trajectory.h5 in single precision has no place for -1e+39: it ends at 3.4e38; expected "
+  EXPECT_THAT(text, HasSubstr("trajectory.h5 in single precision cannot hold -1e+39: it ends at 3.4e38; expected "
                               "output.precision = \"double\"\n"));
   EXPECT_THAT(shell(command + " --set output.trajectory=xyz").second,
-              HasSubstr("error: trajectory.xyz in single precision has no place for -1e+39: it ends at 3.4e38"));
+              HasSubstr("error: trajectory.xyz in single precision cannot hold -1e+39: it ends at 3.4e38"));
   EXPECT_EQ(shell(command + " --set output.precision=double").first, 0);
 }
 
 TEST(TrajectoryH5md, KeysAreChecked) {
   const std::string start = std::string(test::sound_scene) + "[output]\n";
   EXPECT_THAT(test::complaint(start + "select = \"every 2nd\""),
-              HasSubstr("gas.toml:25: output.select: selects disks of no"));
+              HasSubstr("gas.toml:25: output.select: selects disks, but there is no"));
   EXPECT_THAT(test::complaint(start + "trajectory = \"xyz\"\nselect = \"every other\""),
               HasSubstr("expected \"every 100th\""));
   EXPECT_THAT(test::complaint(start + "trajectory = \"xyz\"\nselect = \"every 0th\""),

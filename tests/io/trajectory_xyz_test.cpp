@@ -128,7 +128,7 @@ TEST_F(TrajectoryXyz, WhatIsNotInThePlaneOrNotThereIsRefused) {
   write_text(head + "pos:R:4:velo:R:3:radius:R:1:mass:R:1:id:I:1 Time=0\n");
   EXPECT_THAT(error(), HasSubstr("'pos' has 4 columns"));
   write_text(head + "pos:R:3:velo:R:-3 Time=0\n");
-  EXPECT_THAT(error(), HasSubstr("'-3' is no number of columns"));
+  EXPECT_THAT(error(), HasSubstr("'-3' is not a number of columns"));
 }
 
 constexpr const char* columns = "Properties=pos:R:2:velo:R:2:radius:R:1:mass:R:1:id:I:1";
@@ -175,11 +175,11 @@ TEST_F(TrajectoryXyz, OnlyWhatItSaysIsReadFromAHead) {
   EXPECT_EQ(error(), path_ + ":2: expected Time=0.5, the time of the frame");
   for (const char* const time : {"nan", "inf", "1.0.0"}) {
     write_text("1\n" + box + columns + " Time=" + time + disk);
-    EXPECT_EQ(error(), fmt::format("{}:2: '{}' is no finite number", path_, time));
+    EXPECT_EQ(error(), fmt::format("{}:2: '{}' is not a finite number", path_, time));
   }
   for (const char* const count : {"1.9e3", "1x", "1 disk", "-1", ""}) {
     write_text(fmt::format("{}\n{}{} Time=0{}", count, box, columns, disk));
-    EXPECT_THAT(error(), HasSubstr(fmt::format(":1: '{}' is no number of disks", count)));
+    EXPECT_THAT(error(), HasSubstr(fmt::format(":1: '{}' is not a number of disks", count)));
   }
 }
 
@@ -207,7 +207,7 @@ TEST_F(TrajectoryXyz, BlankLinesAtTheFilesEndAreNoFrame) {
     EXPECT_FALSE(reader.read(frame));
   }
   write_text(frame_text + "\n\n" + frame_text);
-  EXPECT_EQ(error(), path_ + ":6: the line before is blank; expected a frame, or the file's end");
+  EXPECT_EQ(error(), path_ + ":6: the line before is blank; expected a frame, or the end of the file");
 }
 
 // Other programs may have sorted the disks in another way.
@@ -227,7 +227,7 @@ TEST_F(TrajectoryXyz, DisksComeInOrderOfIdHoweverTheyStand) {
   EXPECT_THAT(frame.disks.spin, ::testing::ElementsAre(19.0, 29.0, 9.0));
   EXPECT_THAT(frame.group, ::testing::ElementsAre(1U, 2U, 0U));
   write_text(head + "5 1 2 3 4 .5 6 0 9\n2 11 12 13 14 .25 16 1 19\n5 21 22 23 24 .125 26 2 29\n");
-  EXPECT_EQ(error(), path_ + ":5: disk 5 stands twice in its frame");
+  EXPECT_EQ(error(), path_ + ":5: disk 5 appears twice in its frame");
 }
 
 // Each frame's rounds are sorted with its disks.
@@ -251,8 +251,8 @@ TEST_F(TrajectoryXyz, ValuesThatNoDiskHasAreRefused) {
     write_text(head_of(1, "Lattice=\"9 0 0 0 8 0 0 0 1\" pbc=\"F F F\" Time=0\n" + disk + "\n"));
     return error();
   };
-  EXPECT_EQ(said("1 nan 3 4 5 6 7"), path_ + ":3: 'nan' is no finite number");
-  EXPECT_EQ(said("1 2 3 inf 5 6 7"), path_ + ":3: 'inf' is no finite number");
+  EXPECT_EQ(said("1 nan 3 4 5 6 7"), path_ + ":3: 'nan' is not a finite number");
+  EXPECT_EQ(said("1 2 3 inf 5 6 7"), path_ + ":3: 'inf' is not a finite number");
   EXPECT_EQ(said("1 2 3 4 5 6 7.5"), path_ + ":3: '7.5' is no disk id");
   EXPECT_EQ(said("1 2 3 4 5 6 4294967296"), path_ + ":3: '4294967296' is no disk id");
   EXPECT_EQ(said("1 2 3 4 -5 6 7"), path_ + ":3: radius is -5, expected a number above 0");
@@ -293,7 +293,7 @@ TEST_F(TrajectoryXyz, AGrowingFileIsReadOn) {
     reader.read(frame);
     FAIL() << "no error";
   } catch (const InputError& e) {
-    EXPECT_EQ(e.what(), path_ + ":9: 'six' is no finite number");
+    EXPECT_EQ(e.what(), path_ + ":9: 'six' is not a finite number");
   }
 }
 
@@ -385,11 +385,11 @@ TEST_F(TrajectoryXyz, DamageIsNamedByLine) {
   std::string damaged = whole;
   damaged.replace(damaged.find("1e+300"), 6, "1e+3x0");
   write_text(damaged);
-  EXPECT_EQ(error(), path_ + ":3: '1e+3x0' is no finite number");
+  EXPECT_EQ(error(), path_ + ":3: '1e+3x0' is not a finite number");
   write_text("hello\n");
-  EXPECT_THAT(error(), HasSubstr(path_ + ":1: 'hello' is no number of disks; expected trajectory.xyz"));
+  EXPECT_THAT(error(), HasSubstr(path_ + ":1: 'hello' is not a number of disks; expected trajectory.xyz"));
   write_text("\xff\x1b[31m\n");
-  EXPECT_THAT(error(), HasSubstr(path_ + ":1: '??[31m' is no number of disks"));
+  EXPECT_THAT(error(), HasSubstr(path_ + ":1: '??[31m' is not a number of disks"));
   write_text("1\nH 0 0 0\nH 1 1 1\n");
   EXPECT_THAT(error(), HasSubstr(":2: expected Properties=species"));
 }

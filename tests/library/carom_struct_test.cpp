@@ -69,7 +69,7 @@ TEST(CaromStruct, StatusesAndTheVersionAreTexts) {
   EXPECT_STREQ(carom_status_text(CAROM_OK), "done");
   EXPECT_STREQ(carom_status_text(CAROM_FAILED), "failed");
   EXPECT_STREQ(carom_status_text(CAROM_INPUT), "bad input");
-  EXPECT_STREQ(carom_status_text(CAROM_PHYSICS), "the method cannot go on");
+  EXPECT_STREQ(carom_status_text(CAROM_PHYSICS), "the method cannot continue");
   EXPECT_STREQ(carom_status_text(CAROM_NO_ROOM), "no room");
   EXPECT_STREQ(carom_status_text(CAROM_NOT_FOUND), "not found");
   EXPECT_STREQ(carom_status_text(static_cast<carom_status>(7)), "no such status");

@@ -109,8 +109,8 @@ TEST_F(AnalysisRun, AFirstSampleWithoutDisksIsWarnedOf) {
         "velocities = { maxwell = 1.0 }\n[run]\nt_end = 2.0\n[analysis]\n"
         "what = [\"displacement\", \"density\", \"velocity_autocorrelation\"]\n");
   const std::string said =
-      "analysis: displacement, velocity_autocorrelation are of the disks of the first sample, and at t = 0 there are "
-      "none, so that nothing is measured; use a later analysis.start\n";
+      "analysis: displacement, velocity_autocorrelation are measured on the disks of the first sample, but at t = 0 "
+      "there are none; use a later analysis.start\n";
   EXPECT_THAT(carom("run source.toml -o a").err, ::testing::HasSubstr(said));
   const auto begin = [&](const char* options) {
     return carom(std::string("run source.toml -o b --force ") + options).err;

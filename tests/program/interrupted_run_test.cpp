@@ -35,7 +35,7 @@ TEST_F(LongInterruptedRun, StoppedAgainAndAgainItGivesTheSameResults) {
     EXPECT_EQ(resumed.last.status, 0) << resumed.last.err;
     EXPECT_GE(resumed.parts, 3);
     EXPECT_THAT(resumed.said, HasSubstr("stopped by --max-walltime at t = "));
-    EXPECT_THAT(resumed.said, HasSubstr(" of 8; go on with carom resume parts\n"));
+    EXPECT_THAT(resumed.said, HasSubstr(" of 8; resume it with carom resume parts\n"));
     expect_same_results("whole", "parts");
     EXPECT_FALSE(fs::exists(at("parts/checkpoint.carom"))) << "the scene asks for no checkpoints";
   }
@@ -109,7 +109,7 @@ TEST_F(InterruptedRun, ASignalStopsWithACheckpoint) {
   }
   const Outcome o = carom("run long.toml -o out");
   EXPECT_EQ(o.status, 2);
-  EXPECT_THAT(o.err, HasSubstr("go on with carom resume out, choose another folder"));
+  EXPECT_THAT(o.err, HasSubstr("resume it with carom resume out, choose another folder"));
 }
 
 TEST_F(InterruptedRun, SigusrWritesOneAndTheRunGoesOn) {
@@ -148,9 +148,9 @@ TEST_F(InterruptedRun, WhatGoesOnIsQuotedForTheShell) {
   ASSERT_EQ(stopped.status, 4);
   const std::string command = nlohmann::json::parse(stopped.out)["resume_with"];
   EXPECT_EQ(command, R"(carom resume 'it'\''s 1')");
-  EXPECT_THAT(stopped.err, HasSubstr("; go on with " + command + "\n"));
+  EXPECT_THAT(stopped.err, HasSubstr("; resume it with " + command + "\n"));
   EXPECT_THAT(carom("run busy.toml -o \"it's 1\"").err,
-              HasSubstr("; go on with " + command + ", choose another folder"));
+              HasSubstr("; resume it with " + command + ", choose another folder"));
   const Outcome on = shell(R"(carom() { "$C" "$@"; }; )" + command + " --t-end 0.1 --quiet");
   EXPECT_EQ(on.status, 0) << on.err;
   EXPECT_TRUE(fs::exists(at("it's 1/summary.json")));
@@ -165,14 +165,14 @@ TEST_F(InterruptedRun, AFullDiskCostsNothingButTime) {
   EXPECT_EQ(o.status, 1);
   EXPECT_EQ(o.err,
             "carom: error: cannot write out/carom-unfinished/trajectory.xyz: File too large; the last checkpoint is "
-            "whole: carom resume out\n");
+            "intact: carom resume out\n");
   o = shell("ulimit -f 401; $C resume out --quiet");
   EXPECT_EQ(o.status, 1) << "the disk is still full";
-  EXPECT_THAT(o.err, HasSubstr("the last checkpoint is whole: carom resume out\n"));
+  EXPECT_THAT(o.err, HasSubstr("the last checkpoint is intact: carom resume out\n"));
   // Now there is no room even for the checkpoint itself.
   o = shell("ulimit -f 20; $C resume out --quiet");
   EXPECT_EQ(o.status, 1);
-  EXPECT_THAT(o.err, HasSubstr("the last checkpoint is whole: carom resume out\n"));
+  EXPECT_THAT(o.err, HasSubstr("the last checkpoint is intact: carom resume out\n"));
   EXPECT_EQ(carom("resume out --quiet").status, 0);
   expect_same_results("whole", "out");
 }
@@ -199,14 +199,13 @@ TEST_F(InterruptedRun, ACheckpointThatWasCutShortIsRefusedAndTheOneBeforeServes)
   EXPECT_EQ(o.status, 2);
   EXPECT_EQ(o.err,
             "carom: error: out/carom-unfinished/checkpoint.carom: is damaged: it was cut short or changed after it was "
-            "written; the one before it is whole: carom resume out/carom-unfinished/checkpoint.previous.carom\n");
+            "written; the earlier one is intact: carom resume out/carom-unfinished/checkpoint.previous.carom\n");
   EXPECT_EQ(test::text_of(at("out/carom-unfinished/series.csv")), before) << "nothing may change";
   fs::create_directories(at("alone"));
   fs::copy_file(newest, at("alone/checkpoint.carom"));
-  EXPECT_EQ(
-      carom("resume alone").err,
-      "carom: error: alone/checkpoint.carom: is damaged: it was cut short or changed after it was written; there is "
-      "no whole one before it, so run the scene again\n");
+  EXPECT_EQ(carom("resume alone").err,
+            "carom: error: alone/checkpoint.carom: is damaged: it was cut short or changed after it was written; there "
+            "is no intact earlier one, so run the scene again\n");
   EXPECT_EQ(carom("resume out/carom-unfinished/checkpoint.previous.carom --quiet").status, 0);
   expect_same_results("whole", "out");
 }
@@ -231,7 +230,7 @@ TEST_F(InterruptedRun, ASceneThatWasEditedIsNotThatOfTheCheckpoint) {
   EXPECT_THAT(carom(resume).err, Not(HasSubstr("has changed"))) << "the same scene in other words";
   for (const std::string& other : {test::replaced(kept, "t_end = 20.0", "t_end = 30.0"), kept.substr(0, 100)}) {
     write(file, other);
-    EXPECT_THAT(carom(resume).err, StartsWith(told + "the run goes on with the scene in its checkpoint\n"));
+    EXPECT_THAT(carom(resume).err, StartsWith(told + "the run continues with the scene in its checkpoint\n"));
     EXPECT_EQ(text_of(at(file)), kept);
   }
 }
@@ -269,30 +268,28 @@ TEST_F(LongInterruptedRun, AFinishedRunGoesOnToALaterEnd) {
   ASSERT_EQ(carom("run asks.toml -o whole --t-end 6" + seldom).status, 0);
   ASSERT_EQ(carom("run asks.toml -o out --t-end 3" + seldom).status, 0);
   EXPECT_TRUE(fs::exists(at("out/checkpoint.carom")));
-  EXPECT_THAT(carom("resume out").err, HasSubstr("the run came to its end at t = 3; expected --t-end beyond that"));
+  EXPECT_THAT(carom("resume out").err, HasSubstr("the run is finished: it ended at t = 3; expected a later --t-end"));
   EXPECT_THAT(carom("resume out --t-end 2").err,
-              HasSubstr("--t-end: is 2; expected 3, the checkpoint's time, or more"));
-  EXPECT_THAT(carom("resume out --t-end 3.0000000001").err, HasSubstr("expected a step of 0.002 or more beyond 3"));
+              HasSubstr("--t-end: is 2; expected at least 3, the time of the checkpoint"));
+  EXPECT_THAT(carom("resume out --t-end 3.0000000001").err, HasSubstr("expected at least a step of 0.002 after 3"));
   EXPECT_TRUE(fs::exists(at("out/summary.json"))) << "a refused resume must change nothing";
   EXPECT_EQ(carom("resume out --quiet --t-end 6").status, 0);
   expect_same_results("whole", "out");
   EXPECT_EQ(nlohmann::json::parse(test::text_of(at("out/summary.json")))["resumed"], 1);
   fs::remove(at("out/checkpoint.carom"));
-  EXPECT_THAT(carom("resume out --t-end 9").err,
-              HasSubstr("out: has lost its checkpoint.carom; the one before it is there: carom resume "
-                        "out/checkpoint.previous.carom --t-end T"));
+  EXPECT_THAT(carom("resume out --t-end 9").err, HasSubstr("out: lacks its checkpoint.carom; the earlier one is there: "
+                                                           "carom resume out/checkpoint.previous.carom --t-end T"));
 
   // Without a checkpoint, or after a last step that was cut short, only a new run can get further, and the message says
   // so.
   ASSERT_EQ(carom("run busy.toml -o bare --t-end 3" + seldom).status, 0);
   EXPECT_THAT(carom("resume bare --t-end 6").err,
-              HasSubstr("bare: holds a finished run that kept no checkpoint; to go further, run it once more with one: "
+              HasSubstr("bare: holds a finished run that kept no checkpoint; to go further, run it again with one: "
                         "carom run bare/scene.toml --set output.checkpoint=600 --t-end T -o DIR\n"));
   ASSERT_EQ(carom("run asks.toml -o cut --set output.movie=false --t-end 3.001" + seldom).status, 0);
-  EXPECT_THAT(
-      carom("resume cut --t-end 6").err,
-      HasSubstr("the run's last step was cut short to end at 3.001; expected an earlier checkpoint, or a new run "
-                "to the later end: carom run cut/scene.toml --t-end 6 -o DIR\n"))
+  EXPECT_THAT(carom("resume cut --t-end 6").err,
+              HasSubstr("the last step of the run was shortened to end at 3.001; expected an earlier checkpoint, or a "
+                        "new run to the later end: carom run cut/scene.toml --t-end 6 -o DIR\n"))
       << "the scene file of the folder includes the changes by options";
 }
 

@@ -51,9 +51,11 @@ TEST_F(InterruptedStart, SignalsDoNotWaitForIt) {
     kill(run, SIGUSR1);
     kill(run, signal);
     EXPECT_EQ(wait_for(run), 4);
-    EXPECT_THAT(said(), HasSubstr(signal == SIGINT ? "stopped by SIGINT while the initial state was made; there is no "
-                                                     "checkpoint to go on from\n"
-                                                   : "stopped by SIG"));
+    EXPECT_THAT(
+        said(),
+        HasSubstr(signal == SIGINT
+                      ? "stopped by SIGINT while the initial state was made; there is no checkpoint to resume from\n"
+                      : "stopped by SIG"));
     EXPECT_FALSE(fs::exists(at("out")));
   }
 }
@@ -72,7 +74,7 @@ TEST_F(LongInterruptedStart, TheWallTimeEndsItToo) {
   EXPECT_EQ(o.status, 4);
   EXPECT_EQ(
       o.err,
-      "carom: stopped by --max-walltime while the initial state was made; there is no checkpoint to go on from\n");
+      "carom: stopped by --max-walltime while the initial state was made; there is no checkpoint to resume from\n");
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ TEST_F(OldPictures, APartOfTheMovieThatIsGoneIsMissed) {
   const Outcome o = carom("resume out --quiet");
   EXPECT_EQ(o.status, 2);
   EXPECT_THAT(o.err, HasSubstr("movie_part_"));
-  EXPECT_THAT(o.err, HasSubstr("No such file or directory; expected the file that the checkpoint goes on with"));
+  EXPECT_THAT(o.err, HasSubstr("No such file or directory; expected the file that the resumed run continues"));
   EXPECT_TRUE(fs::exists(unfinished / "checkpoint.carom"));
 }
 

@@ -270,7 +270,7 @@ def test_paths_and_texts_that_are_no_unicode(tmp_path):
 def test_a_damaged_trajectory_says_so(tmp_path):
     file = tmp_path / "gas.xyz"
     file.write_bytes(b"\xff\xfe\n")
-    with pytest.raises(carom.SceneError, match=r"gas.xyz:1: '\?\?' is no number of disks"):
+    with pytest.raises(carom.SceneError, match=r"gas.xyz:1: '\?\?' is not a number of disks"):
         list(carom.Trajectory(file))
 
 
