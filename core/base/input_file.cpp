@@ -92,7 +92,7 @@ std::string read_text_file(const std::string& path, std::string_view where) {
 }
 
 void check_other_processes_have(const std::string& path) {
-  if (is_of_this_process(path)) fail_input(path, "is read by several processes", "expected the name of a file");
+  if (is_of_this_process(path)) fail_input(path, "cannot be read by several processes", "expected the name of a file");
 }
 
 void check_regular_file(const std::string& path) {

@@ -11,7 +11,7 @@ KernelSet choose_kernel_set(const char* wanted) {
   const std::string_view name = wanted == nullptr ? "" : wanted;
   if (name == "baseline") return KernelSet::baseline;
   if (!name.empty())
-    fail_input("CAROM_KERNELS", "there are no kernels " + in_quotes(name), "expected baseline, or nothing");
+    fail_input("CAROM_KERNELS", "there are no kernels " + in_quotes(name), "expected baseline, or no value");
 #if defined(__x86_64__)
   if (__builtin_cpu_supports("avx2")) return KernelSet::avx2;
 #endif

@@ -99,39 +99,40 @@ std::vector<std::string> brownian_warnings(const Scene& scene) {
   std::vector<std::string> warnings;
   if (!velocities_are_drawn(scene)) return warnings;
   const auto warn = [&](std::string_view key, const std::string& what) {
-    warnings.push_back(fmt::format("{}: {}: Brownian disks have no velocity, u / dt is the displacement of a step: {}",
+    warnings.push_back(fmt::format("{}: {}: Brownian disks have no velocities, only a displacement u in each step: {}",
                                    scene.file, key, what));
   };
   const auto& plots = scene.output.plots;
-  if (std::find(plots.begin(), plots.end(), "energy") != plots.end()) warn("output.plots", "no energy is drawn");
-  if (scene.analysis.wants(Quantity::pressure)) warn("analysis.what", "there is no pressure");
+  if (std::find(plots.begin(), plots.end(), "energy") != plots.end()) warn("output.plots", "no energies are plotted");
+  if (scene.analysis.wants(Quantity::pressure)) warn("analysis.what", "no pressure is measured");
   if (scene.analysis.wants(Quantity::collision_rate)) {
-    warn("analysis.what", "collisions are those of the motion at u / dt, and grow in number as 1 / sqrt(dt)");
+    warn("analysis.what", "collisions are those of disks that move at u / dt, and their number grows as 1 / sqrt(dt)");
   }
-  if (scene.analysis.wants(Quantity::speeds)) warn("analysis.what", "speeds are those of u / dt");
+  if (scene.analysis.wants(Quantity::speeds)) warn("analysis.what", "the speeds are those of u / dt");
   if (scene.analysis.wants(Quantity::profile)) {
-    warn("analysis.what", "the profile's velocities and temperature are those of u / dt");
+    warn("analysis.what", "the velocities and the temperature of the profile are those of u / dt");
   }
   if (scene.analysis.wants(Quantity::velocity_autocorrelation)) {
     warn("analysis.what", "the autocorrelation is that of u / dt");
   }
   if (const std::string key = key_of_motion(scene); !key.empty()) {
-    warn(key, "those given here are forgotten in the first step, and nothing drifts");
+    warn(key, "the velocities given here are forgotten in the first step, and the disks do not drift");
   }
   if (const std::string key = key_of_loss(scene); !key.empty()) {
-    warn(key, fmt::format("below 1 what met stays nearer, and is too dense within sqrt(2 D dt) = {:.3g} of contact; "
-                          "take 1",
+    warn(key, fmt::format("with a value below 1 disks stay too close after a collision, and their density within "
+                          "sqrt(2 D dt) = {:.3g} of contact is too high; use 1",
                           std::sqrt(2.0 * scene.physics.diffusion * scene.run.dt)));
   }
   if (scene.physics.gravity.acts()) {
-    warn("physics.gravity", fmt::format("what gravity gives in a step is forgotten in the next, so that disks sink at "
-                                        "g dt / 2 = {:.3g} and less with a smaller dt, to no barometric law",
-                                        0.5 * scene.physics.gravity.size * scene.run.dt));
+    warn("physics.gravity",
+         fmt::format("the velocity that gravity adds in a step is forgotten in the next, so disks sink at only g dt / "
+                     "2 = {:.3g}, and more slowly with a smaller dt, and do not follow the barometric law",
+                     0.5 * scene.physics.gravity.size * scene.run.dt));
   }
   if (masses_differ(scene)) {
     warn("disks.mass",
-         "D is the same for all, and yet in a collision the lighter disk gives way further; take equal "
-         "masses, or heavy disks spread faster");
+         "D is the same for all disks, but in a collision the lighter disk is displaced further; use equal masses, "
+         "otherwise heavy disks spread faster");
   }
   return warnings;
 }

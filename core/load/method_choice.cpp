@@ -100,11 +100,12 @@ MethodOffer offer_pairwise(const Scene& scene, const SceneScales& s, double accu
                       (has_obstacles(scene) ? rates::obstacle_step : 0.0);
   offer.seconds = step * s.disks * steps + rates::pairwise_collision * collisions_in(scene.run.t_end, s);
   offer.possible = steps <= most_steps_offered;
-  offer.why = !offer.possible ? steps_text(scene.run.t_end, offer.dt)
-              : safe < wanted
-                  ? (safe == kicks ? std::string("dt is the time between two kicks of the thermostat")
-                                   : std::string("dt is the longest in which no disk moves half its radius"))
-                  : fmt::format("{:.2g} collisions of a disk in a step", (s.collision_rate + s.wall_rate) * offer.dt);
+  offer.why =
+      !offer.possible ? steps_text(scene.run.t_end, offer.dt)
+      : safe < wanted
+          ? (safe == kicks ? std::string("dt is the time between two kicks of the thermostat")
+                           : std::string("dt is the longest step in which no disk moves more than half its radius"))
+          : fmt::format("{:.2g} collisions of each disk per step", (s.collision_rate + s.wall_rate) * offer.dt);
   return offer;
 }
 
@@ -113,19 +114,19 @@ MethodOffer offer_exact(const Scene& scene, const SceneScales& s, double accurac
   offer.method = Method::exact;
   double collisions = collisions_in(scene.run.t_end, s);
   offer.possible = true;
-  offer.why = "pays for each collision, not for time";
+  offer.why = "its cost depends on the number of collisions, not of steps";
   const std::optional<double> tc = scene.physics.collapse_contact_time;
   if (s.may_collapse && !tc) {
     offer.possible = false;
-    offer.why = s.settles ? "disks come to rest, with infinitely many collisions (physics.collapse would allow it)"
-                          : "inelastic collapse is to be expected (physics.collapse would allow it)";
+    offer.why = s.settles ? "disks come to rest after infinitely many collisions (physics.collapse makes it possible)"
+                          : "inelastic collapse is expected (physics.collapse makes it possible)";
   } else if (tc && disks_dissipate(scene)) {
     offer.error = 2.0 * s.collision_rate * *tc;
     if (s.settles) collisions += 0.5 * s.disks * rates::pile_collisions * scene.run.t_end / *tc;
     offer.possible = offer.error <= accuracy;
-    offer.why = offer.possible
-                    ? "its error is that of the collapse model, 2 Gamma t_c"
-                    : fmt::format("contact_time = {:g} alone is wrong by {:.1e} (2 Gamma t_c)", *tc, offer.error);
+    offer.why = offer.possible ? "its error is that of the collapse model, 2 Gamma t_c"
+                               : fmt::format("contact_time = {:g} alone causes an error of {:.1e} (2 Gamma t_c)", *tc,
+                                             offer.error);
   }
   offer.seconds = collisions * exact_collision_seconds(s);
   return offer;
@@ -136,14 +137,14 @@ MethodOffer offer_exact(const Scene& scene, const SceneScales& s, double accurac
 void leave_driven_to_exact(const SceneScales& s, MethodOffer& pairwise, const MethodOffer& exact) {
   if (!s.driven || s.may_collapse || !exact.possible || exact.error > 0.0 || !pairwise.possible) return;
   pairwise.possible = false;
-  pairwise.why = "how fast walls that move make the disks, and so which step is short, is not known before";
+  pairwise.why = "moving walls give the disks speeds that are not known beforehand, nor is a step that is short enough";
 }
 
 // The error of a pairwise step in a sheared box is not known; exact has none.
 void leave_shear_to_exact(const Scene& scene, MethodOffer& pairwise) {
   if (!scene.box.shear.acts() || !pairwise.possible) return;
   pairwise.possible = false;
-  pairwise.why = "its errors beside box.shear_rate are not known";
+  pairwise.why = "its errors in a shear flow (box.shear_rate) are not known";
 }
 
 // Brownian motion: both methods draw a displacement each dt, and both have the error of that interval. Without disks
@@ -172,8 +173,9 @@ void offer_brownian(const Scene& scene, const SceneScales& s, double accuracy, M
     offer.seconds = intervals * s.disks * interval +
                     collisions * (stepping ? rates::pairwise_collision : exact_collision_seconds(s));
     offer.possible = intervals <= most_steps_offered;
-    offer.why = offer.possible ? fmt::format("{:.2g} collisions of a disk between two draws", x * std::sqrt(offer.dt))
-                               : steps_text(scene.run.t_end, offer.dt);
+    offer.why = offer.possible
+                    ? fmt::format("{:.2g} collisions of each disk between two draws", x * std::sqrt(offer.dt))
+                    : steps_text(scene.run.t_end, offer.dt);
     choice.offers.push_back(offer);
   }
 }
@@ -191,7 +193,7 @@ void pick_best(MethodChoice& choice) {
 
 std::string reason_of(const MethodChoice& choice) {
   if (choice.best < 0) {
-    return fmt::format("out of reach: pairwise: {}; exact: {}", choice.offers[0].why, choice.offers[1].why);
+    return fmt::format("no method reaches it: pairwise: {}; exact: {}", choice.offers[0].why, choice.offers[1].why);
   }
   const MethodOffer& best = choice.offers[static_cast<std::size_t>(choice.best)];
   const MethodOffer& other = choice.offers[choice.best == 0 ? 1 : 0];
@@ -208,7 +210,7 @@ MethodChoice choose_method(const Scene& scene, double accuracy) {
   MethodChoice choice;
   choice.scales = scales_of(scene);
   if (scene.physics.accumulate) {
-    choice.why = "with physics.accumulate the step is part of the physics; name a method and its dt";
+    choice.why = "with physics.accumulate dt is part of the physics; state a method and its dt";
     return choice;
   }
   if (scene.physics.diffusion > 0.0) {

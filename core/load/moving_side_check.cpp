@@ -33,7 +33,7 @@ void check_wall_stays(const Scene& scene, Vec2 low, Vec2 high, const std::string
                          leaves_x ? 'x' : 'y', below ? least : (leaves_x ? high.x : high.y),
                          name_of(leaves_x ? (below ? Side::left : Side::right) : (below ? Side::bottom : Side::top)),
                          scene.run.t_end),
-             "expected it to stay in the box");
+             "expected a wall that stays in the box");
 }
 
 // The times until t_end at which a motion reaches its extreme places.
@@ -81,12 +81,11 @@ void check_wall(const Scene& scene, const InnerWall& wall, const std::string& wh
   const std::string_view side = name_of(sweep.side);
   // If their motions differ, the areas that they sweep over must not overlap.
   if (wall.motion.moves()) {
-    fail_input(where,
-               fmt::format("the {} side comes into the room that it moves through at t = {:g}", side, sweep.time),
-               fmt::format("expected ways of the two that do not overlap until run.t_end = {}", scene.run.t_end));
+    fail_input(where, fmt::format("the {} side enters the path of this wall at t = {:g}", side, sweep.time),
+               fmt::format("expected paths of the two that do not overlap until run.t_end = {}", scene.run.t_end));
   }
-  fail_input(where, fmt::format("the {} side runs into it at t = {:g}", side, sweep.time),
-             fmt::format("expected walls where no side comes until run.t_end = {}", scene.run.t_end));
+  fail_input(where, fmt::format("the {} side hits this wall at t = {:g}", side, sweep.time),
+             fmt::format("expected walls that no side reaches until run.t_end = {}", scene.run.t_end));
 }
 
 // radius: the largest of the source's disks. A side must not sweep over the whole region of a source; if it covers a
@@ -97,10 +96,11 @@ void check_source(const Scene& scene, const Source& source, double radius, const
   const Vec2 high{source.region_low.x + radius, source.region_low.y + radius};
   const Sweep sweep = first_sweep(scene.box, low, high, place_slack(scene.box, radius), scene.run.t_end);
   if (!sweep.happens()) return;
-  fail_input(where,
-             fmt::format("the {} side leaves no place in it for the centre of a disk of radius {} from t = {:g}",
-                         name_of(sweep.side), radius, sweep.time),
-             fmt::format("expected a region of which a part stays clear until run.t_end = {}", scene.run.t_end));
+  fail_input(
+      where,
+      fmt::format("the {} side leaves no place in this region for the centre of a disk of radius {} from t = {:g} on",
+                  name_of(sweep.side), radius, sweep.time),
+      fmt::format("expected a region of which some part stays free until run.t_end = {}", scene.run.t_end));
 }
 
 }  // namespace

@@ -51,11 +51,11 @@ std::vector<std::string> press_warnings(const Scene& scene) {
   for (int k = 0; k <= looks; ++k) {
     const double t = scene.run.t_end * k / looks;
     if (!(room_by(scene.box, t) < needed)) continue;
-    return {fmt::format(
-        "{}: box: the sides that move leave the disks, which need a room of {:.4g} at least, less than that by t = "
-        "{:.4g}: no method gets there, and exact is ever slower on the way; move the sides less far, or end the run "
-        "sooner",
-        scene.file, needed, t)};
+    return {
+        fmt::format("{}: box: the disks need an area of at least {:.4g}, and the moving sides leave less than that "
+                    "from t = {:.4g} on: no method gets there, and exact becomes slower and slower before; move the "
+                    "sides less far, or end the run sooner",
+                    scene.file, needed, t)};
   }
   return {};
 }

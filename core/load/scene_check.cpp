@@ -28,7 +28,8 @@ namespace {
 
 void check_length(std::size_t length, Count count, const std::string& where) {
   if (length == count) return;
-  fail_input(where, fmt::format("has {} for count = {}", counted(length, "entry"), count), "expected one entry a disk");
+  fail_input(where, fmt::format("has {} for count = {}", counted(length, "entry"), count),
+             "expected one entry for each disk");
 }
 
 // where: of the group with which there are too many disks.
@@ -38,14 +39,15 @@ void check_memory(const Scene& scene, Method method, Count total, const std::str
   const double have = machine_memory();
   if (need <= have) return;
   fail_input(where,
-             fmt::format("{} disks need {:.3g} GB of memory or more by method {}, and this machine has {:.3g} GB",
+             fmt::format("{} disks need at least {:.3g} GB of memory with method {}, and this machine has {:.3g} GB",
                          total, need / gigabyte, name_of(method), have / gigabyte),
              "expected fewer disks");
 }
 
 void check_sizes_differ(const SizeLaw& radius, const SizeLaw& mass, const std::string& where) {
   if (radius.kind != SizeLaw::Kind::from_other || mass.kind != SizeLaw::Kind::from_other) return;
-  fail_input(where, "radius and mass are both derived from each other", "expected one of them given by itself");
+  fail_input(where, "radius and mass are both derived from each other",
+             "expected one of them without from_mass or from_radius");
 }
 
 void check_group(const DiskGroup& group, const std::string& path, const PlaceOfKey& place) {
@@ -57,8 +59,10 @@ void check_group(const DiskGroup& group, const std::string& path, const PlaceOfK
   }
   const PositionLaw::Kind kind = group.positions.kind;
   if (group.positions.region && (kind == PositionLaw::Kind::list || kind == PositionLaw::Kind::growth)) {
-    fail_input(at("region"), kind == PositionLaw::Kind::list ? "beside positions that are given" : "beside \"growth\"",
-               "expected positions = \"random\", \"square\" or \"hexagonal\" with it");
+    fail_input(at("region"),
+               kind == PositionLaw::Kind::list ? "cannot be used with a list of positions"
+                                               : "cannot be used with positions = \"growth\"",
+               "expected positions = \"random\", \"square\" or \"hexagonal\"");
   }
   if (group.velocities.kind == VelocityLaw::Kind::list) {
     check_length(group.velocities.list.size(), group.count, at("velocities"));
@@ -69,8 +73,8 @@ void check_group(const DiskGroup& group, const std::string& path, const PlaceOfK
   if (group.radius.kind == SizeLaw::Kind::list) check_length(group.radius.values.size(), group.count, at("radius"));
   if (group.mass.kind == SizeLaw::Kind::list) check_length(group.mass.values.size(), group.count, at("mass"));
   if (group.velocities.kind == VelocityLaw::Kind::maxwell && group.velocities.temperature > 0.0 && group.count == 1) {
-    fail_input(at("velocities"), "maxwell with a single disk: taking off the mean velocity leaves nothing to scale",
-               "expected two disks or more, or a list with the velocity");
+    fail_input(at("velocities"), "maxwell cannot be used with a single disk: minus the mean, its velocity is 0",
+               "expected two disks or more, or a list with one velocity");
   }
 }
 
@@ -85,7 +89,7 @@ void check_wall(const Scene& scene, const InnerWall& wall, const std::string& pa
   }
   if (wall.sink && scene.physics.diffusion > 0.0) {
     fail_input(place(path + ".kind"),
-               "a sink within the box beside Brownian motion, which may cross it between two steps",
+               "a sink inside the box cannot be used with Brownian motion: disks may cross it between two steps",
                "expected a side of the box as sink, or no diffusion");
   }
 }
@@ -105,7 +109,7 @@ void check_source_at_sink(const Scene& scene, const Source& source, const std::s
   const bool sink = source.side && scene.box.side(*source.side) == SideKind::sink;
   if (!sink || !(scene.physics.diffusion > 0.0) || scene.physics.accumulate) return;
   fail_input(where,
-             fmt::format("{} is a sink, which takes Brownian disks that start at it at once",
+             fmt::format("{} is a sink, which would remove Brownian disks that start there at once",
                          side_names[static_cast<std::size_t>(*source.side)]),
              "expected a wall side, or a region away from the sink");
 }
@@ -126,13 +130,14 @@ void check_moving_walls(const Scene& scene, const PlaceOfKey& place) {
   for (std::size_t k = 0; k < scene.walls.size(); ++k) {
     if (!scene.walls[k].motion.moves() || !(scene.physics.diffusion > 0.0)) continue;
     fail_input(place(fmt::format("walls.{}.motion", k)),
-               "given beside physics.diffusion: Brownian disks have no velocity", "expected one of the two");
+               "cannot be used with physics.diffusion: Brownian disks have no velocity", "expected one of the two");
   }
   for (const Side side : all_sides) {
     if (!scene.box.moves(side)) continue;
     const std::string where = place(fmt::format("box.{}.motion", side_names[static_cast<std::size_t>(side)]));
     if (scene.physics.diffusion > 0.0) {
-      fail_input(where, "given beside physics.diffusion: Brownian disks have no velocity", "expected one of the two");
+      fail_input(where, "cannot be used with physics.diffusion: Brownian disks have no velocity",
+                 "expected one of the two");
     }
   }
 }
@@ -143,7 +148,7 @@ void check_thermal_motion(const Scene& scene, const PlaceOfKey& place) {
   for (const Side side : all_sides) {
     if (!scene.box.is_thermal(side)) continue;
     fail_input(place(fmt::format("box.{}.temperature", side_names[static_cast<std::size_t>(side)])),
-               "given beside physics.diffusion: velocities of Brownian disks are drawn anew in each step",
+               "cannot be used with physics.diffusion: velocities of Brownian disks are drawn anew in each step",
                "expected one of the two");
   }
 }
@@ -163,7 +168,7 @@ void check_names(const Scene& scene, const PlaceOfKey& place) {
       if (scene.groups[g].name.empty() || scene.groups[g].name != scene.groups[before].name) continue;
       fail_input(place(fmt::format("disks.{}.name", g)),
                  fmt::format("is \"{}\", the name of disks.{}", scene.groups[g].name, before),
-                 "expected a name of its own");
+                 "expected a name that no other group has");
     }
   }
 }
@@ -179,19 +184,21 @@ void check_growth(const Scene& scene, const PlaceOfKey& place) {
     return g;
   };
   if (scene.growth.given && group_with(true) == scene.groups.size()) {
-    fail_input(place("growth"), "nothing grows", "expected positions = \"growth\" in [[disks]] as well");
+    fail_input(place("growth"), "no group grows", "expected positions = \"growth\" in [[disks]] as well");
   }
   for (std::size_t g = 0; g < scene.groups.size(); ++g) {
     if (!scene.groups[g].fixed || scene.groups[g].positions.kind != PositionLaw::Kind::growth) continue;
-    fail_input(place(fmt::format("disks.{}.positions", g)),
-               "is \"growth\" of fixed disks, which stand while others grow", "expected other positions");
+    fail_input(place(fmt::format("disks.{}.positions", g)), "is \"growth\" for fixed disks, which do not grow",
+               "expected other positions");
   }
   const std::size_t other = group_with(false);
   if (group_with(true) == scene.groups.size() || other == scene.groups.size()) return;
-  fail_input(place(fmt::format("disks.{}.positions", other)),
-             fmt::format("beside \"growth\" of disks.{}: all disks of a scene but fixed ones grow together, or none",
-                         group_with(true)),
-             "expected \"growth\" for every group, or for none");
+  fail_input(
+      place(fmt::format("disks.{}.positions", other)),
+      fmt::format(
+          "cannot be used with \"growth\" of disks.{}: all disks of a scene except fixed ones grow together, or none",
+          group_with(true)),
+      "expected \"growth\" for every group, or for none");
 }
 
 // Checks for sizes out of range: drawn, from a list or an earlier run, or derived from each other.
@@ -199,7 +206,7 @@ void check_sizes(const DiskSize& smallest, const DiskSize& largest, const std::s
   const auto check = [&](std::string_view name, Dimension dimension, double low, double high) {
     if (low > 0.0 && in_range(dimension, low) && in_range(dimension, high)) return;
     const std::string what =
-        low == high ? fmt::format("comes out as {}", low) : fmt::format("comes out between {} and {}", low, high);
+        low == high ? fmt::format("gets the value {}", low) : fmt::format("gets values between {} and {}", low, high);
     fail_input(place(fmt::format("{}.{}", path, name)), what, expected_range(dimension));
   };
   check("radius", Dimension::length, smallest.radius, largest.radius);
@@ -236,8 +243,9 @@ void check_region(const Source& source, const Domain& box, double radius, const 
       fits_along(low.y, high.y, box.height, box.periodic_y(), radius)) {
     return;
   }
-  fail_input(where, fmt::format("is no place for the centre of a disk of radius {}: it lies nearer to a side", radius),
-             "expected a region that reaches a radius or more from each side that is not periodic");
+  fail_input(where,
+             fmt::format("has no place for the centre of a disk of radius {}: all of it is closer to a side", radius),
+             "expected a region with places at least a radius from each side that is not periodic");
 }
 
 // radius: the largest of the group.
@@ -309,7 +317,7 @@ void warn_of_interval(const Scene& scene, const char* key, double every, std::ve
   const bool steps = scene.run.method != Method::exact;
   if (!steps || every == scene.run.t_end / 100.0 || !(every > 0.0 && every < (1.0 - rounding) * scene.run.dt)) return;
   warnings.push_back(
-      fmt::format("{}: {}: is {:g}, shorter than dt = {:g}: time stepping has a state at the end of each step only",
+      fmt::format("{}: {}: is {:g}, shorter than dt = {:g}: time stepping has states only at the ends of its steps",
                   scene.file, key, every, scene.run.dt));
 }
 

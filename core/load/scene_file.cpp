@@ -97,7 +97,7 @@ BoxSize read_box(const SceneOrigin& origin, Scene& scene) {
                      reader.number("aspect")};
   if (size.packing_fraction) {
     if (size.width || size.height) {
-      reader.fail("packing_fraction", fmt::format("given beside {}", size.width ? "width" : "height"),
+      reader.fail("packing_fraction", fmt::format("cannot be used with {}", size.width ? "width" : "height"),
                   "expected either width and height, or packing_fraction");
     }
     if (*size.packing_fraction >= densest_packing) {
@@ -106,7 +106,7 @@ BoxSize read_box(const SceneOrigin& origin, Scene& scene) {
     }
     return size;
   }
-  if (size.aspect) reader.fail("aspect", "given without packing_fraction", "expected width and height alone");
+  if (size.aspect) reader.fail("aspect", "cannot be used without packing_fraction", "expected only width and height");
   if (!size.width) reader.fail("width", "missing", "expected a length above 0");
   if (!size.height) reader.fail("height", "missing", "expected a length above 0");
   return size;
@@ -152,12 +152,13 @@ Physics read_physics(const SceneOrigin& origin) {
 // Rejects keys that fixed disks do not have. Their mass, which nothing uses, is 1.
 void read_fixed(const TableReader& reader, DiskGroup& group) {
   constexpr std::string_view expected = "expected fixed disks without this key";
-  if (reader.find("mass") != nullptr) reader.fail("mass", "given beside fixed = true, an infinite mass", expected);
+  if (reader.find("mass") != nullptr)
+    reader.fail("mass", "cannot be used with fixed = true, which is an infinite mass", expected);
   for (const std::string_view key : {"velocities", "drift", "spin", "spin_temperature"}) {
-    if (reader.find(key) != nullptr) reader.fail(key, "given beside fixed = true", expected);
+    if (reader.find(key) != nullptr) reader.fail(key, "cannot be used with fixed = true", expected);
   }
   if (group.radius.kind == SizeLaw::Kind::from_other) {
-    reader.fail("radius", "from_mass beside fixed = true", "expected radii that do not ask for a mass");
+    reader.fail("radius", "from_mass cannot be used with fixed = true", "expected radii that need no mass");
   }
   group.mass.value = 1.0;
 }
@@ -167,7 +168,7 @@ DiskGroup read_group(const SceneOrigin& origin, const std::string& path, const t
   DiskGroup group;
   group.line = static_cast<int>(table.source().begin.line);
   group.name = read_group_name(reader);
-  reader.require("count", "expected how many disks the group has");
+  reader.require("count", "expected the number of disks of the group");
   group.count = reader.count("count").value();
   group.positions = read_positions(reader);
   group.velocities = read_velocities(reader, Serves::a_group);
@@ -204,7 +205,7 @@ Source read_source(const SceneOrigin& origin, const std::string& path, const tom
   const toml::node* region = reader.find("region");
   const std::optional<std::size_t> side = reader.choice("side");
   constexpr std::string_view expected = "expected either side = \"left\" or region = [x0, y0, x1, y1]";
-  if (side && region != nullptr) reader.fail("region", "given beside side", expected);
+  if (side && region != nullptr) reader.fail("region", "cannot be used with side", expected);
   if (!side && region == nullptr) reader.fail("side", "missing", expected);
   if (side) source.side = static_cast<Side>(*side);
   if (region != nullptr) {
@@ -213,7 +214,7 @@ Source read_source(const SceneOrigin& origin, const std::string& path, const tom
     source.region_low = {corners[0], corners[1]};
     source.region_high = {corners[2], corners[3]};
   }
-  reader.require("rate", "expected disks per unit time");
+  reader.require("rate", "expected the number of disks per unit time");
   source.rate = reader.number("rate").value();
   source.radius = read_size(reader, "radius", "from_mass", Serves::any_number);
   source.mass = read_size(reader, "mass", "from_radius", Serves::any_number);
@@ -254,8 +255,8 @@ double read_accuracy(const TableReader& reader, bool automatic) {
 void choose_run(Scene& scene, const PlaceOfKey& place) {
   const MethodChoice choice = choose_method(scene, scene.run.accuracy);
   if (choice.best < 0) {
-    fail_input(place("run.accuracy"), fmt::format("{} cannot be had: {}", scene.run.accuracy, choice.why),
-               "expected a larger error, or a method named");
+    fail_input(place("run.accuracy"), fmt::format("is {}: {}", scene.run.accuracy, choice.why),
+               "expected a larger error, or a method other than \"auto\"");
   }
   const MethodOffer& best = choice.offers[static_cast<std::size_t>(choice.best)];
   scene.run.method = best.method;
@@ -341,7 +342,7 @@ void settle_box(Scene& scene, const BoxSize& size, const PlaceOfKey& place) {
   scene.box.width = aspect * scene.box.height;
   if (area > 0.0) return;  // check_box checks the range
   fail_input(place("box.packing_fraction"), fmt::format("gives a box of {} x {}", scene.box.width, scene.box.height),
-             "expected disks to take up the box, or width and height");
+             "expected disks that fill a part of the box, or width and height");
 }
 
 }  // namespace

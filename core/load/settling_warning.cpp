@@ -18,8 +18,8 @@ std::vector<std::string> settling_warnings(const Scene& scene) {
   const double excess = measured * s.stopping * s.collision_rate * scene.run.dt;
   if (!(excess > much)) return {};
   return {
-      fmt::format("{}: run.dt: disks that are so nearly elastic may lose up to {:.2g} % too much energy while they "
-                  "settle; method \"exact\" or a smaller dt does not",
+      fmt::format("{}: run.dt: nearly elastic disks may lose up to {:.2g} % too much energy while they settle; use "
+                  "method \"exact\" or a smaller dt",
                   scene.file, 100.0 * excess)};
 }
 

@@ -61,16 +61,16 @@ std::vector<std::string> wall_warnings(const Scene& scene) {
   };
   for (std::size_t k = 0; k < scene.walls.size(); ++k) {
     if (const std::optional<Side> side = side_behind(scene.walls[k], scene.box)) {
-      warn(k, fmt::format("lies along the {} side, and a disk that comes to both meets {}; put it before the side, by "
-                          "a thousandth of a radius{}",
+      warn(k, fmt::format("lies along the {} side, and a disk that reaches both collides with {}; place the wall "
+                          "inside the box, a thousandth of a radius from the side{}",
                           side_names[static_cast<std::size_t>(*side)],
-                          scene.run.method == Method::rollback ? "the side" : "either, as rounding has it",
-                          scene.run.method == Method::rollback ? ", and take another method" : ""));
+                          scene.run.method == Method::rollback ? "the side" : "either of them, as rounding decides",
+                          scene.run.method == Method::rollback ? ", and use another method" : ""));
     }
     if (loses_hold(scene.walls[k], scene)) {
       warn(k,
-           "moves along itself, and takes along what hits it, but not what rests on it: method pairwise supports a "
-           "pile without friction");
+           "moves along itself, and drags along disks that hit it, but not disks that rest on it: method pairwise "
+           "supports a pile without friction");
     }
   }
   return warnings;

@@ -49,13 +49,13 @@ std::vector<std::string> energy_warnings(const Scene& scene, const RunStart& sta
   std::string why = "speeds or sizes differ too much for double precision";
   if (exact && has_tc(scene)) {
     why = fmt::format(
-        "the TC model makes disks that lie on the floor hop, and contact_time = {:g} is long against their motion; use "
+        "the TC model makes disks hop that lie on the floor, and contact_time = {:g} is long against their motion; use "
         "a smaller one",
         *scene.physics.collapse_contact_time);
   }
   if (!exact) why = fmt::format("dt = {:g} is too long; use a smaller dt or run.method = \"exact\"", scene.run.dt);
-  return {fmt::format("at the end, time {:g}, the energy is {:.6g} where {:.6g} was put in: {}", state.time, after,
-                      before, why)};
+  return {fmt::format("at the end, at time {:g}, the energy is {:.6g}, but only {:.6g} was put in: {}", state.time,
+                      after, before, why)};
 }
 
 }  // namespace carom

@@ -77,8 +77,8 @@ std::string doubt_text(const DisplacementTally& tally, const Scene& scene, std::
                        std::string_view wrong, std::string_view every) {
   const bool looks_within = scene.run.method == Method::exact && !(scene.physics.diffusion > 0.0);
   return fmt::format(
-      "{}: at t = {:g} disks moved too far within a step to count how often they went round the periodic box; {} may "
-      "be wrong from there on; use a smaller {}",
+      "{}: at t = {:g} disks moved too far within a step to count how often they cross periodic sides; {} may be wrong "
+      "from then on; use a smaller {}",
       what, tally.looked_at, wrong, looks_within ? every : "dt");
 }
 

@@ -66,7 +66,8 @@ std::vector<NamedIds> read_pair_groups(const TableReader& options, const Analysi
   const toml::node* const node = options.find("groups");
   if (node == nullptr) return {};
   if (!plan.group.empty()) {
-    options.fail("groups", "given beside analysis.select", "expected one of the two: a selection has no other group");
+    options.fail("groups", "cannot be used with analysis.select",
+                 "expected one of the two: a selection is a single group");
   }
   const std::string key = options.key("groups");
   const toml::array& list = as_list(options.origin(), key, *node, "expected a list of the names of groups");
@@ -101,12 +102,12 @@ void read_options(const TableReader& analysis, const AnalysisPlan& plan, Quantit
   const toml::node* node = analysis.find(name);
   if (node == nullptr) return;
   if (!node->is_table()) {
-    analysis.fail(name, fmt::format("is {}", type_name(*node)),
-                  fmt::format("expected a table with {}, and the name among what",
-                              fmt::join(key_names(analysis.key(name)), ", ")));
+    analysis.fail(
+        name, fmt::format("is {}", type_name(*node)),
+        fmt::format("expected a table with {}, and its name in what", fmt::join(key_names(analysis.key(name)), ", ")));
   }
   if (!plan.wants(quantity)) {
-    analysis.fail(name, "has options, but what does not name it", fmt::format("expected \"{}\" in what", name));
+    analysis.fail(name, "has options, but what does not contain it", fmt::format("expected \"{}\" in what", name));
   }
   read(TableReader(analysis.origin(), analysis.key(name), *node->as_table()));
 }
@@ -132,18 +133,17 @@ void settle_distances(const Scene& scene, DistancePlan& plan, const DefaultDista
   const double diameter = 2.0 * largest_radius;
   if (!(most > 0.0)) {
     fail_input(place("analysis.what"),
-               fmt::format("{} finds no room: a disk fills the box from wall to wall", usual.name),
+               fmt::format("{} has no room: a disk fills the box from wall to wall", usual.name),
                "expected a larger box");
   }
   // The diameter is 0 in a scene without disks.
   if (plan.r_max == 0.0) plan.r_max = std::min({x.usual, y.usual, diameter > 0.0 ? usual.reach * diameter : x.usual});
   const bool periodic = scene.box.periodic_x() && scene.box.periodic_y();
   if (plan.r_max > most) {
-    fail_input(place(fmt::format("analysis.{}.r_max", usual.name)),
-               fmt::format("{} is too large for the box", plan.r_max),
-               fmt::format("expected at most {}, {}", most,
-                           periodic ? "half the shorter side"
-                                    : "half a periodic side, and what leaves disks that far from all walls"));
+    fail_input(
+        place(fmt::format("analysis.{}.r_max", usual.name)), fmt::format("{} is too large for the box", plan.r_max),
+        fmt::format("expected at most {}, {}", most,
+                    periodic ? "half the shorter side" : "half a periodic side, with disks that far from all walls"));
   }
   if (plan.bins == 0) {
     const double bins = diameter > 0.0 ? usual.bins_per_diameter * plan.r_max / diameter : usual.bins_per_diameter;
@@ -234,7 +234,7 @@ AnalysisPlan read_analysis(const SceneOrigin& origin, const toml::table& table, 
   read_sample_times(reader, scene, plan);
   read_all_options(reader, scene, plan);
   if (plan.wants(Quantity::structure_factor) && !scene.box.periodic_x() && !scene.box.periodic_y()) {
-    reader.fail("what", "structure_factor goes by waves along periodic sides, and no side is",
+    reader.fail("what", "structure_factor needs waves along periodic sides, and no side is periodic",
                 "expected a periodic box");
   }
   take_defaults(plan);

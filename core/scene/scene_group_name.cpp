@@ -30,7 +30,7 @@ std::string read_group_name(const TableReader& group) {
   if (name.empty() || name.size() > longest_name || !is_letter(name.front()) ||
       !std::all_of(name.begin(), name.end(), may_be_in_name)) {
     group.fail("name", fmt::format("is {}", in_quotes(name)),
-               fmt::format("expected a letter, then letters, digits, _ or -, {} in all at most", longest_name));
+               fmt::format("expected a letter, then letters, digits, _ or -, at most {} characters", longest_name));
   }
   if (name == sources_name) {
     group.fail("name", fmt::format("is {}, which names the disks of all [[sources]]", in_quotes(name)),

@@ -50,7 +50,8 @@ std::vector<Vec2> read_csv_law(const TableReader& law, CsvPairs pairs, std::stri
   const SceneOrigin& origin = law.origin();
   const std::string key = law.key("file");
   file = law.text("file").value();
-  if (file.empty() || file.find('\0') != std::string::npos) law.fail("file", "is no file name", "expected a CSV file");
+  if (file.empty() || file.find('\0') != std::string::npos)
+    law.fail("file", "is not a file name", "expected a CSV file");
   const std::filesystem::path path = std::filesystem::path(origin.folder) / file;
   const std::string text = read_text_file(path.string(), fmt::format("{} {}", origin.where(key), in_quotes(file)));
   return parse_csv_pairs(text, file, key, pairs);
@@ -60,7 +61,7 @@ std::vector<Vec2> read_csv_law(const TableReader& law, CsvPairs pairs, std::stri
 double scale_of_radii(const TableReader& law, std::string_view name) {
   const std::optional<double> scale = law.number("scale");
   if (scale && name != "radius") {
-    law.fail("scale", fmt::format("is given for {}", name), "expected it for radius alone");
+    law.fail("scale", fmt::format("cannot be used for {}", name), "expected it only for radius");
   }
   return scale.value_or(1.0);
 }
@@ -73,12 +74,12 @@ SceneFrame read_frame(const TableReader& owner, std::string_view name, const tom
   FrameAsked asked;
   law.require("frame", expected);
   file = law.text("frame").value();
-  if (file.empty() || file.find('\0') != std::string::npos) law.fail("frame", "is no file name", expected);
+  if (file.empty() || file.find('\0') != std::string::npos) law.fail("frame", "is not a file name", expected);
   asked.path = (std::filesystem::path(law.origin().folder) / file).string();
   asked.index = law.count("index");
   asked.time = law.number("time");
   asked.velocities = name == "velocities";
-  if (asked.index && asked.time) law.fail("time", "given beside index", expected);
+  if (asked.index && asked.time) law.fail("time", "cannot be used with index", expected);
   if (const auto group = law.text("group")) {
     asked.group = *group;
     if (asked.group.empty()) law.fail("group", "is empty", "expected the name of a group of that run");
@@ -98,8 +99,7 @@ SceneFrame read_frame(const TableReader& owner, std::string_view name, const tom
 // known number of disks.
 void check_serves(const TableReader& owner, std::string_view name, Serves serves, const std::string& file) {
   if (serves == Serves::a_group) return;
-  owner.fail(name, file.empty() ? "is a list" : "is a list, that of " + file,
-             "expected a law that serves any number of disks");
+  owner.fail(name, file.empty() ? "is a list" : "is the list in " + file, "expected a law for any number of disks");
 }
 
 bool is_frame(const toml::table& table) {
@@ -119,12 +119,12 @@ bool draws_velocities(const SceneOrigin& origin) {
 // The velocities of a frame for [[disks]], without the shear flow of the run that wrote them.
 std::vector<Vec2> velocities_of(const TableReader& owner, SceneFrame frame, const std::string& file) {
   if (frame.brownian && !draws_velocities(owner.origin())) {
-    owner.fail("velocities", fmt::format("are of {}, whose disks are Brownian: u / dt of a step", file),
+    owner.fail("velocities", fmt::format("are from {}, whose Brownian disks have no velocities", file),
                "expected velocities of another kind");
   }
   if (!has_shear(owner.origin())) return std::move(frame.velocities);
   if (!frame.shear_rate) {
-    owner.fail("velocities", fmt::format("are of {}, which does not tell whether they have a shear flow in them", file),
+    owner.fail("velocities", fmt::format("are from {}, which does not tell whether they include a shear flow", file),
                "expected the folder of a run, with its scene.toml");
   }
   const Shear shear{*frame.shear_rate};
@@ -203,7 +203,7 @@ SizeLaw read_choice_of_sizes(const TableReader& law, std::string_view other_key)
   for (const std::string_view other :
        {std::string_view("uniform"), std::string_view("normal"), std::string_view("lognormal"), other_key}) {
     if (law.find(other) != nullptr && law.find("choice") != nullptr) {
-      law.fail(other, "given beside choice", "expected one of the two, and weights beside choice alone");
+      law.fail(other, "cannot be used with choice", "expected one of the two, and weights only with choice");
     }
   }
   const toml::node* weights = law.find("weights");
@@ -215,11 +215,11 @@ SizeLaw read_choice_of_sizes(const TableReader& law, std::string_view other_key)
              [](double w) { return w == 0.0 || (w >= 1e-9 && w <= 1e9); });
   if (size.weights.size() != size.values.size()) {
     law.fail("weights",
-             fmt::format("has {} for {} to choose from", counted(size.weights.size(), "number"), size.values.size()),
-             "expected one each");
+             fmt::format("has {} for {} values of choice", counted(size.weights.size(), "number"), size.values.size()),
+             "expected one for each");
   }
   if (std::all_of(size.weights.begin(), size.weights.end(), [](double w) { return w == 0.0; })) {
-    law.fail("weights", "are all 0", "expected one above 0 at least");
+    law.fail("weights", "are all 0", "expected at least one above 0");
   }
   return size;
 }
@@ -376,7 +376,7 @@ SizeLaw read_size(const TableReader& owner, std::string_view name, std::string_v
   if (!node.is_number()) owner.fail(name, fmt::format("is {}", type_name(node)), expected);
   if (const auto mass = node.value<double>(); name == "mass" && mass && *mass == HUGE_VAL) {
     owner.fail(name, "is inf",
-               "expected a number above 0; fixed = true in place of a mass makes disks that never move");
+               "expected a number above 0; for disks that never move use fixed = true instead of a mass");
   }
   law.value = owner.number(name).value();
   return law;

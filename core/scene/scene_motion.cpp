@@ -38,9 +38,10 @@ MotionKeys read_motion_keys(const TableReader& owner, const TableReader& motion)
   const std::optional<double> period = motion.number("period");
   for (const std::string_view of_vibration : {"period", "shape"}) {
     if (!steady || motion.find(of_vibration) == nullptr) continue;
-    motion.fail(of_vibration, "given of a constant velocity", "expected vibrate = [ax, ay] in place of velocity");
+    motion.fail(of_vibration, "cannot be used with a constant velocity",
+                "expected vibrate = [ax, ay] instead of velocity");
   }
-  if (!steady && !period) motion.fail("period", "missing", "expected the time of one vibration");
+  if (!steady && !period) motion.fail("period", "missing", "expected the period of the vibration");
   keys.period = period.value_or(0.0);
   return keys;
 }

@@ -41,7 +41,8 @@ Selection read_selection(const TableReader& output, const Scene& scene) {
   const toml::node* node = output.find("select");
   if (node == nullptr) return select;
   if (output.text("trajectory").value_or("none") == "none") {
-    output.fail("select", "selects disks of no trajectory", "expected trajectory = \"xyz\" or \"h5md\" as well");
+    output.fail("select", "selects disks, but there is no trajectory",
+                "expected trajectory = \"xyz\" or \"h5md\" as well");
   }
   if (node->is_string()) {
     const std::string text = output.text("select").value();
@@ -75,7 +76,7 @@ void check_selection(const Scene& scene, const PlaceOfKey& place) {
   fail_input(place("output.select"),
              fmt::format("the rectangle from ({}, {}) to ({}, {}) is outside the box of {} x {}", select.low.x,
                          select.low.y, select.high.x, select.high.y, short_number(box.width), short_number(box.height)),
-             "expected one that has room in common with the box");
+             "expected a rectangle that overlaps the box");
 }
 
 bool read_single_precision(const TableReader& output) {
@@ -92,7 +93,7 @@ bool read_third_dimension(const TableReader& output) {
   if (dimensions != 2 && dimensions != 3)
     output.fail("dimensions", fmt::format("is {}", dimensions), "expected 2 or 3");
   if (output.find("dimensions") != nullptr && output.text("trajectory").value_or("none") != "h5md") {
-    output.fail("dimensions", "is a matter of trajectory.h5", "expected trajectory = \"h5md\" as well");
+    output.fail("dimensions", "belongs to trajectory.h5 only", "expected trajectory = \"h5md\" as well");
   }
   return dimensions == 3;
 }

@@ -47,7 +47,7 @@ toml::node& descend(toml::node& node, std::string_view segment, std::string_view
     if (table->get(segment) == nullptr) {
       if (!next.empty() && std::all_of(next.begin(), next.end(), is_digit)) {
         fail_input(where, fmt::format("no entry {}, as the scene has no {}", in_quotes(next), in_quotes(segment)),
-                   "expected a list that there is");
+                   "expected a list of the scene");
       }
       table->insert(segment, toml::table{});
     }
@@ -58,7 +58,7 @@ toml::node& descend(toml::node& node, std::string_view segment, std::string_view
     list_entry_owner(*list, segment, index, where);
     return (*list)[index];
   }
-  fail_input(where, fmt::format("{} lies below {}", in_quotes(segment), type_name(node)),
+  fail_input(where, fmt::format("{} cannot be a key of {}", in_quotes(segment), type_name(node)),
              "expected a key of the scene");
 }
 
@@ -70,7 +70,8 @@ std::string expected_value(const Override& change) {
       value.find_first_of("\"'[]{}\n") == std::string_view::npos &&
       std::any_of(value.begin(), value.end(), [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); });
   if (!text) return "expected a value as in TOML";
-  return fmt::format("expected a value as in TOML, text in quotes of its own: '{}={}'", change.key, in_quotes(value));
+  return fmt::format("expected a value as in TOML; text needs quotes of its own: '{}={}'", change.key,
+                     in_quotes(value));
 }
 
 // The table { v = value }.
@@ -98,7 +99,7 @@ void apply_override(toml::table& root, const Override& change) {
   const std::string where = fmt::format("--set {}", change.key);
   const std::vector<std::string_view> segments = split_key(change.key);
   if (std::find(segments.begin(), segments.end(), std::string_view{}) != segments.end()) {
-    fail_input(where, "is no key", "expected a key such as physics.restitution or disks.0.count");
+    fail_input(where, "is not a key", "expected a key such as physics.restitution or disks.0.count");
   }
   toml::table value = parse_value(change, where);
   toml::node* owner = &root;

@@ -22,8 +22,8 @@ double longer_side(const Domain& box) {
 void check_count(double count, double value, std::string_view key, std::string_view noun, double t_end,
                  const PlaceOfKey& place) {
   if (count <= most_steps) return;
-  fail_input(place(key), fmt::format("is {}: {:g} {} until run.t_end = {}", value, count, noun, t_end),
-             fmt::format("expected at most 2^53 = {:g} of them", most_steps));
+  fail_input(place(key), fmt::format("is {}, which makes {:g} {} until run.t_end = {}", value, count, noun, t_end),
+             fmt::format("expected at most 2^53 = {:g}", most_steps));
 }
 
 void check_period(const SideMotion& motion, const std::string& path, double t_end, const PlaceOfKey& place) {
@@ -170,7 +170,7 @@ void check_resolution(const Scene& scene, double smallest_radius, const PlaceOfK
   if (smallest_radius == 0.0 || side / smallest_radius <= most_radii) return;
   fail_input(place(scene.box.width >= scene.box.height ? "box.width" : "box.height"),
              fmt::format("{} is {:g} times the smallest radius, {}", side, side / smallest_radius, smallest_radius),
-             fmt::format("expected at most 2^40 = {:g} times: places have 16 digits", most_radii));
+             fmt::format("expected at most 2^40 = {:g} times: positions have 16 digits", most_radii));
 }
 
 }  // namespace carom

@@ -93,7 +93,7 @@ std::string where_it_belongs(std::string_view name) {
   for (const SceneTable& other : scene_tables()) {
     if (other.name.find('.') != std::string_view::npos || find_scene_key(other.name, name) == nullptr) continue;
     tables += tables.empty() ? "" : ", ";
-    tables += other.name.empty() ? "the file itself, above all tables" : without_ticks(other.heading);
+    tables += other.name.empty() ? "the file itself, before all tables" : without_ticks(other.heading);
   }
   return tables.empty() ? "" : fmt::format(" ({} is a key of {})", name, tables);
 }
@@ -113,11 +113,11 @@ std::string text_name(const std::string& text) {
   const auto [end, error] = std::from_chars(text.data(), last, value);
   if (text.empty() || end != last) return "a string";
   if (error == std::errc::result_out_of_range && is_below_one(text)) {
-    return fmt::format("{}, too small for a double, which begins at {:.2g}", text,
+    return fmt::format("{}, too small for a double: the smallest is {:.2g}", text,
                        std::numeric_limits<double>::denorm_min());
   }
   if (error == std::errc::result_out_of_range) {
-    return fmt::format("{}, too large for a double, which ends at {:.2g}", text, std::numeric_limits<double>::max());
+    return fmt::format("{}, too large for a double: the largest is {:.2g}", text, std::numeric_limits<double>::max());
   }
   const bool whole = text.find_first_not_of("0123456789", text[0] == '-' ? 1 : 0) == std::string::npos;
   constexpr double end_of_64_bits = 9223372036854775808.0;  // 2^63

@@ -54,7 +54,7 @@ Restitution read_restitution(const TableReader& owner, const Scene& scene) {
   if (law.least == 1.0) {
     reader.fail("least", "is 1, so that no collision loses energy", "expected a number below 1, or restitution = 1");
   }
-  reader.require("viscoelastic", "expected a of e(v) = max(least, 1 - a v^(1/5))");
+  reader.require("viscoelastic", "expected the number a in e(v) = max(least, 1 - a v^(1/5))");
   law.viscosity = reader.number("viscoelastic").value();
   return law;
 }
@@ -64,7 +64,7 @@ GroupPair read_pair(const TableReader& reader, const Scene& scene) {
   const SceneOrigin& origin = reader.origin();
   const std::string key = reader.key("groups");
   const toml::array& names = as_list(origin, key, reader.require("groups", expected), expected);
-  if (names.size() != 2) reader.fail("groups", fmt::format("has {} of them", names.size()), expected);
+  if (names.size() != 2) reader.fail("groups", fmt::format("is a list of {}", names.size()), expected);
   DiskId number[2];
   for (std::size_t k = 0; k < 2; ++k) {
     const std::string entry = fmt::format("{}.{}", key, k);
@@ -93,7 +93,7 @@ void read_pairs(const TableReader& physics, Scene& scene) {
     const auto place = std::lower_bound(law.pairs.begin(), law.pairs.end(), pair);
     if (place != law.pairs.end() && !(pair < *place)) {
       reader.fail("groups",
-                  fmt::format("are {} and {}, which are a pair already", name_of_group(scene, pair.first),
+                  fmt::format("are {} and {}, a pair that is already given", name_of_group(scene, pair.first),
                               name_of_group(scene, pair.second)),
                   "expected each pair once, in either order");
     }

@@ -28,7 +28,7 @@ const toml::table* table_in(const SceneOrigin& origin, std::string_view section,
 
 Roughness read_roughness(const TableReader& reader) {
   Roughness roughness;
-  constexpr std::string_view expected = "expected b from -1, smooth, to 1, perfectly rough";
+  constexpr std::string_view expected = "expected b from -1 (smooth) to 1 (perfectly rough)";
   roughness.friction = reader.number("friction").value_or(HUGE_VAL);
   reader.require("tangential_restitution", expected);
   roughness.restitution = reader.number("tangential_restitution").value();
@@ -47,7 +47,7 @@ Surfaces read_surfaces(const SceneOrigin& origin) {
   if (walls != nullptr) surfaces.walls = read_roughness(TableReader(origin, "box.wall_roughness", *walls));
   if (disks == nullptr) {
     if (walls == nullptr) return surfaces;
-    origin.fail("box.wall_roughness", "given without physics.roughness",
+    origin.fail("box.wall_roughness", "cannot be used without physics.roughness",
                 "expected both, or physics.roughness = { tangential_restitution = -1.0 } for disks that are smooth "
                 "among themselves");
   }
@@ -56,7 +56,7 @@ Surfaces read_surfaces(const SceneOrigin& origin) {
   surfaces.inertia = reader.number_or_initial("inertia");
   if (surfaces.inertia < least_inertia || surfaces.inertia > 1.0) {
     reader.fail("inertia", fmt::format("is {}", surfaces.inertia),
-                fmt::format("expected I / (m r^2) from {} to 1, all mass at the edge", least_inertia));
+                fmt::format("expected I / (m r^2) from {} to 1 (all mass at the edge)", least_inertia));
   }
   return surfaces;
 }
@@ -67,7 +67,7 @@ SpinLaw read_spins(const TableReader& owner) {
   const toml::node* const node = owner.find("spin");
   if (node == nullptr) return law;
   if (owner.find("spin_temperature") != nullptr) {
-    owner.fail("spin_temperature", "given beside spin", "expected one of the two");
+    owner.fail("spin_temperature", "cannot be used with spin", "expected one of the two");
   }
   constexpr std::string_view expected = "expected a number, a list of numbers, or { frame = \"DIR\" }";
   if (node->is_table()) {
@@ -86,13 +86,13 @@ SpinLaw read_spins(const TableReader& owner) {
 void check_surfaces(const Scene& scene, const PlaceOfKey& place) {
   if (scene.physics.surfaces.are_rough()) {
     if (!(scene.physics.diffusion > 0.0)) return;
-    fail_input(place("physics.roughness"), "given beside physics.diffusion: Brownian disks have no velocity",
+    fail_input(place("physics.roughness"), "cannot be used with physics.diffusion: Brownian disks have no velocity",
                "expected one of the two");
   }
   const auto check = [&](const SpinLaw& law, const std::string& path) {
     if (law.value == 0.0 && law.list.empty() && law.temperature == 0.0) return;
     fail_input(place(path + (law.temperature > 0.0 ? ".spin_temperature" : ".spin")),
-               "given without physics.roughness: smooth disks have no spin", "expected both or neither");
+               "cannot be used without physics.roughness: smooth disks have no spin", "expected both or neither");
   };
   for (std::size_t g = 0; g < scene.groups.size(); ++g) check(scene.groups[g].spins, fmt::format("disks.{}", g));
   for (std::size_t s = 0; s < scene.sources.size(); ++s) check(scene.sources[s].spins, fmt::format("sources.{}", s));
@@ -104,7 +104,7 @@ void check_spins(const Scene& scene, const SpinLaw& law, double smallest_mass, d
   const double most = magnitudes_of(Dimension::speed).most;
   const auto check = [&](double surface_speed, const std::string& key, const std::string& what) {
     if (surface_speed <= most) return;
-    fail_input(place(key), fmt::format("is {}: a surface has a speed of {}", what, surface_speed),
+    fail_input(place(key), fmt::format("is {}, which gives a surface a speed of {}", what, surface_speed),
                expected_range(Dimension::speed));
   };
   check(largest_radius * std::abs(law.value), fmt::format("{}.spin", path), fmt::format("{}", law.value));

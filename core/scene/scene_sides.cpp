@@ -31,7 +31,7 @@ double length_across(const Domain& box, std::size_t s) {
 void require_wall(const TableReader& side, std::string_view name, SideKind kind) {
   if (side.find(name) == nullptr || kind == SideKind::wall) return;
   const auto kind_name = side_kind_names[static_cast<std::size_t>(kind)];
-  side.fail(name, fmt::format("given of a side of kind \"{}\"", kind_name), "expected kind = \"wall\"");
+  side.fail(name, fmt::format("cannot be used for a side of kind \"{}\"", kind_name), "expected kind = \"wall\"");
 }
 
 // The component into the box of a velocity or an amplitude.
@@ -39,8 +39,8 @@ double read_inward(const TableReader& motion, const MotionKeys& keys, std::size_
   const double across = is_vertical(s) ? keys.value.x : keys.value.y;
   const double along = is_vertical(s) ? keys.value.y : keys.value.x;
   if (along != 0.0) {
-    motion.fail(keys.name, fmt::format("is {} along the side, which moves across itself alone", along),
-                "expected 0 there; disks are dragged along by an inner wall ([[walls]]) and wall_roughness");
+    motion.fail(keys.name, fmt::format("is {} along the side, but a side moves only across itself", along),
+                "expected 0; to drag disks along use an inner wall ([[walls]]) and wall_roughness");
   }
   if (!in_range(keys.dimension(), std::abs(across))) {
     motion.fail(keys.name, fmt::format("is {}", across), expected_range(keys.dimension()));
@@ -64,10 +64,11 @@ void read_side(const TableReader& side, std::size_t s, Scene& scene) {
   for (const char* key : {"restitution", "temperature", "motion", "place"}) require_wall(side, key, domain.sides[s]);
   if (const auto temperature = side.number("temperature")) {
     if (side.find("restitution") != nullptr) {
-      side.fail("restitution", "given beside temperature, which draws the velocity anew", "expected one of the two");
+      side.fail("restitution", "cannot be used with temperature, which draws the velocity anew",
+                "expected one of the two");
     }
     if (side.find("motion") != nullptr) {
-      side.fail("motion", "given beside temperature: thermal sides do not move", "expected one of the two");
+      side.fail("motion", "cannot be used with temperature: thermal sides do not move", "expected one of the two");
     }
     domain.temperatures[s] = *temperature;
     domain.restitutions[s] = 1.0;
@@ -77,7 +78,7 @@ void read_side(const TableReader& side, std::size_t s, Scene& scene) {
   if (side.find("motion") != nullptr) {
     domain.motions[s] = read_motion(side, s);
   } else if (scene.side_places[s]) {
-    side.fail("place", "given of a side that does not move", "expected motion as well");
+    side.fail("place", "cannot be used for a side that does not move", "expected motion as well");
   }
 }
 
@@ -105,7 +106,7 @@ void settle_side(Scene& scene, std::size_t s, const PlaceOfKey& place) {
   if (motion.least_inset(t_end) >= -slack && motion.furthest <= length + slack) return;
   const std::string key = key_of(s, scene.side_places[s] ? "place" : "motion");
   fail_input(place(key), fmt::format("brings the {} side out of the box before run.t_end = {}", side_names[s], t_end),
-             fmt::format("expected it to stay between 0 and {}", length));
+             fmt::format("expected a side that stays between 0 and {}", length));
 }
 
 // A lower bound on the distance of two opposite sides until t_end.
@@ -152,8 +153,8 @@ void settle_sides(Scene& scene, double largest_radius, const PlaceOfKey& place) 
     const double least = least_distance(scene.box, s, scene.run.t_end);
     if (least >= 2.0 * largest_radius - place_slack(scene.box, largest_radius)) continue;
     fail_input(place(key_of(moving, "motion")),
-               fmt::format("brings the {} and {} sides to {:.6g} of each other before run.t_end = {}", side_names[s],
-                           side_names[s + 1], std::max(least, 0.0), scene.run.t_end),
+               fmt::format("brings the {} and {} sides within {:.6g} of each other before run.t_end = {}",
+                           side_names[s], side_names[s + 1], std::max(least, 0.0), scene.run.t_end),
                fmt::format("expected at least {}, the diameter of the largest disk", 2.0 * largest_radius));
   }
   scene.box.move_walls(0.0);

@@ -29,18 +29,18 @@ void check_thermostat(const Scene& scene, const PlaceOfKey& place) {
   if (!bath.acts()) return;
   const std::string where = place("physics.thermostat");
   if (scene.physics.diffusion > 0.0) {
-    fail_input(where, "given beside physics.diffusion: velocities of Brownian disks are drawn anew in each step",
+    fail_input(where, "cannot be used with physics.diffusion: velocities of Brownian disks are drawn anew in each step",
                "expected one of the two");
   }
   const double dt = bath.interval(scene.run.automatic ? 0.0 : scene.run.dt);
   if (dt == 0.0) fail_input(place("physics.thermostat.dt"), "missing", "expected the time between two kicks");
   if (scene.run.method != Method::exact && dt < scene.run.dt) {
     fail_input(place("physics.thermostat.dt"), fmt::format("is {}, below run.dt = {}", dt, scene.run.dt),
-               "expected no more than a kick a step");
+               "expected at most one kick in each step");
   }
   if (bath.rate * dt > 1.0) {
-    fail_input(place("physics.thermostat.rate"), fmt::format("is {}: rate dt is {}", bath.rate, bath.rate * dt),
-               "expected rate dt of at most 1");
+    fail_input(place("physics.thermostat.rate"), fmt::format("is {}, so that rate dt is {}", bath.rate, bath.rate * dt),
+               "expected rate dt to be at most 1");
   }
 }
 

@@ -25,12 +25,13 @@ std::vector<Vec2> read_points(const TableReader& reader) {
   const toml::node* node = reader.find("points");
   if (node == nullptr) return {read_point(reader, "from"), read_point(reader, "to")};
   for (const std::string_view other : {"from", "to"}) {
-    if (reader.find(other) != nullptr) reader.fail(other, "given beside points", expected_points);
+    if (reader.find(other) != nullptr) reader.fail(other, "cannot be used with points", expected_points);
   }
   const std::string key = reader.key("points");
   as_list(reader.origin(), key, *node, expected_points);
   std::vector<Vec2> points = as_pairs(reader.origin(), key, *node);
-  if (points.size() < 2) reader.fail("points", fmt::format("has {} of them", points.size()), "expected two or more");
+  if (points.size() < 2)
+    reader.fail("points", fmt::format("is a list of {}", points.size()), "expected two points or more");
   return points;
 }
 
@@ -41,7 +42,8 @@ void check_lengths(const TableReader& reader, const std::vector<Vec2>& points) {
     const Vec2 p = points[k];
     const Vec2 before = points[k - 1];
     if (p == before) {
-      reader.fail(key, fmt::format("comes to [{}, {}] twice in a row", p.x, p.y), "expected segments with a length");
+      reader.fail(key, fmt::format("has the point [{}, {}] twice in a row", p.x, p.y),
+                  "expected segments with a length");
     }
     const double length = std::hypot(p.x - before.x, p.y - before.y);
     if (in_range(Dimension::length, length)) continue;
@@ -77,7 +79,7 @@ InnerWall read_wall(const SceneOrigin& origin, const std::string& path, const to
   wall.sink = reader.choice_or_initial("kind") == 1;
   const double common = (*origin.root)["box"]["wall_restitution"].value_or(1.0);
   const std::optional<double> own = reader.number("restitution");
-  if (own && wall.sink) reader.fail("restitution", "given beside kind = \"sink\"", "expected a wall");
+  if (own && wall.sink) reader.fail("restitution", "cannot be used with kind = \"sink\"", "expected a wall");
   wall.restitution = wall.sink ? 1.0 : own.value_or(common);
   if (reader.find("motion") != nullptr) wall.motion = read_motion(reader);
   return wall;

@@ -23,9 +23,9 @@ void check_clear_of_sides(const Scene& scene, const Obstacle& o) {
   const Sweep sweep = first_sweep(scene.box, low, high, place_slack(scene.box, o.radius), scene.run.t_end);
   if (!sweep.happens()) return;
   fail_input(place_in_group(scene, group_of(scene, o.id), "positions"),
-             fmt::format("the {} side runs into {}, of radius {} at ({:g}, {:g}), at t = {:g}",
+             fmt::format("the {} side hits {}, of radius {} at ({:g}, {:g}), at t = {:g}",
                          side_names[static_cast<std::size_t>(sweep.side)], name_of(o), o.radius, o.x, o.y, sweep.time),
-             fmt::format("expected fixed disks where no side comes until run.t_end = {}", scene.run.t_end));
+             fmt::format("expected fixed disks that no side reaches until run.t_end = {}", scene.run.t_end));
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ Scene inside_moving_sides(const Scene& scene) {
     const bool inside = region.low.x >= -slack && region.low.y >= -slack && region.high.x <= inner.box.width + slack &&
                         region.high.y <= inner.box.height + slack;
     if (inside) continue;
-    fail_input(place_in_group(scene, g, "region"), "reaches beyond a side that moves",
+    fail_input(place_in_group(scene, g, "region"), "reaches beyond a moving side",
                "expected a region between the sides where they are at time 0");
   }
   return inner;

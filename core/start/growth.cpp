@@ -119,8 +119,8 @@ class Growth {
       for (const auto& [periodic, length, word] : axes) {
         if (periodic || 2.0 * target_[i] < (1.0 - rounding) * length) continue;
         fail_input(place_in_group(scene_, group_of(scene_, static_cast<DiskId>(i)), "positions"),
-                   fmt::format("\"growth\" comes to no end where a disk fills the box from wall to wall: disk {} has "
-                               "the diameter {:g}, and the box is {:g} {}",
+                   fmt::format("\"growth\" never ends if a disk fills the box from wall to wall: disk {} has the "
+                               "diameter {:g}, and the box is {:g} {}",
                                i, 2.0 * target_[i], length, word),
                    "expected a larger box, smaller disks, or a lattice, \"square\" or \"hexagonal\"");
       }
@@ -220,8 +220,8 @@ class Growth {
     const double each = 2.0 * static_cast<double>(progress_.collisions) / static_cast<double>(disks_);
     fail_input(
         place_in_group(scene_, static_cast<std::size_t>(group), "positions"),
-        fmt::format("\"growth\" {} at packing fraction {:.4f} of {:.4f}: after {} steps and {:.0f} collisions a "
-                    "disk, {} of {} disks lack some of their radius",
+        fmt::format("\"growth\" {} at packing fraction {:.4f} of {:.4f}: after {} steps and {:.0f} collisions of each "
+                    "disk, {} of {} disks have not reached their radius",
                     how, progress_.packing_fraction, progress_.final_packing_fraction, progress_.steps, each,
                     tally.lacking, disks_),
         fmt::format("expected fewer disks or a larger box, a wider range of radii, or slower growth, as in "

@@ -278,7 +278,7 @@ void draw_sizes(const Scene& scene, const DiskGroup& group, DiskId first_id, std
     if (law.kind != SizeLaw::Kind::list || law.values.size() >= group.count) return;
     fail_input(place_in_file(scene.file, group.line, fmt::format("disks {}", key)),
                fmt::format("has {} for count = {}", counted(law.values.size(), "entry"), group.count),
-               "expected one entry a disk");
+               "expected one entry for each disk");
   };
   check(group.radius, "radius");
   check(group.mass, "mass");

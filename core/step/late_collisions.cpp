@@ -14,20 +14,20 @@ namespace {
 std::string cause_and_remedy(const Scene& scene) {
   if (scene.run.method == Method::exact && settles(scene)) {
     return fmt::format(
-        "made elastic by the TC model (contact_time = {:g}), as all are of disks that rest on each other; use "
-        "run.method = \"pairwise\" for a pile, or a smaller contact_time where disks still fly",
+        "made elastic by the TC model (contact_time = {:g}), as are all collisions of disks that rest on each other; "
+        "use run.method = \"pairwise\" for a pile, or a smaller contact_time while disks still fly",
         scene.physics.collapse_contact_time.value_or(0.0));
   }
   if (scene.run.method == Method::exact) {
     return fmt::format(
-        "made elastic by the TC model, so that less energy is lost: contact_time = {:g} is long against the time "
-        "between them; use a smaller one",
+        "made elastic by the TC model, so that too little energy is lost: contact_time = {:g} is long against the time "
+        "between collisions; use a smaller one",
         scene.physics.collapse_contact_time.value_or(0.0));
   }
-  return fmt::format(
-      "{}: dt = {:g} is long against the time between them; use a smaller dt{}",
-      scene.run.method == Method::rollback ? "bounced at one moment with another of the same disk" : "seen a step late",
-      scene.run.dt, or_exact(scene));
+  return fmt::format("{}: dt = {:g} is long against the time between collisions; use a smaller dt{}",
+                     scene.run.method == Method::rollback ? "treated as simultaneous with another one of the same disk"
+                                                          : "seen a step late",
+                     scene.run.dt, or_exact(scene));
 }
 
 const char* was_or_were(Count count) {
@@ -56,7 +56,7 @@ std::string inaccurate_text(const Scene& scene, const State& state) {
 std::string late_at_walls_text(const Scene& scene, const State& state) {
   return fmt::format(
       "by time {:g} {} of {} bounces off walls and obstacles {} seen a step late: dt = {:g} is long against the time "
-      "between them, and others are lost; use a smaller dt{}",
+      "between bounces, and others are missed; use a smaller dt{}",
       state.time, state.validity.inaccurate_at_walls, state.counters.wall_collisions,
       was_or_were(state.validity.inaccurate_at_walls), scene.run.dt, or_exact(scene));
 }

@@ -159,10 +159,9 @@ void emit_from_source(const Scene& scene, const Domain& box, State& state, std::
   Count& emitted = state.sources[index].emitted;
   while (emitted < due) {
     if (state.next_id >= most_disks) {
-      throw PhysicsError(
-          fmt::format("sources: {} disks have been in the run, and there is no id for another; use a "
-                      "lower rate, or a limit",
-                      state.next_id));
+      throw PhysicsError(fmt::format(
+          "sources: the run has had {} disks, and no id is left for another one; use a lower rate, or a limit",
+          state.next_id));
     }
     Disk disk = draw_emission(scene, box, index, state.next_id, emitted, step);
     if (!find_place(scene, box, index, step, places, room, disk)) break;

@@ -48,8 +48,8 @@ std::string overlap_text(const Scene& scene, const State& state, const WorstOver
 // The line about an overlap beyond largest_exact_overlap.
 std::string missed_text(const State& state, const WorstOverlap& wall) {
   return fmt::format(
-      "at time {:g} disk {} reaches {:.2g} % of its radius beyond the {}: a contact was missed, and what comes after "
-      "is wrong; please report this scene",
+      "at time {:g} disk {} reaches {:.2g} % of its radius beyond the {}: a contact was missed, and the run is wrong "
+      "from then on; please report this scene",
       wall.time, wall.overlap.id1, 100.0 * wall.overlap.size, wall_name(state, wall.overlap.id2));
 }
 
@@ -182,27 +182,27 @@ void check_crushed(const Scene& scene, const State& state) {
   if (!(deepest.size > crushed_overlap)) return;
   const std::string into =
       is_wall(deepest.id2) ? "the " + wall_name(state, deepest.id2) : fmt::format("disk {}", deepest.id2);
-  throw PhysicsError(fmt::format(
-      "a wall that moves leaves no room at t = {}, or dt = {:g} is too long: disk {} reaches {:.2g} % into {} ({}); "
-      "use a smaller dt, move it less far, or take fewer or smaller disks",
-      time, scene.run.dt, deepest.id1, 100.0 * deepest.size, into, moving_walls_text(scene.box, time)));
+  throw PhysicsError(
+      fmt::format("a moving wall leaves no room at t = {}, or dt = {:g} is too long: disk {} reaches {:.2g} % into {} "
+                  "({}); use a smaller dt, move the wall less far, or use fewer or smaller disks",
+                  time, scene.run.dt, deepest.id1, 100.0 * deepest.size, into, moving_walls_text(scene.box, time)));
 }
 
 std::vector<std::string> validity_warnings_at_start(const Scene& scene, double smallest_radius, double fastest) {
   std::vector<std::string> warnings;
   const double period = shortest_period(scene);
   if (scene.run.method != Method::exact && scene.run.dt > largest_share_of_period * period) {
-    warnings.push_back(fmt::format(
-        "a wall vibrates with a period of {:g} and moves at its mean speed in dt = {:g}: it gives the disks "
-        "too little energy, or none; use dt <= {:.2g} or run.method = \"exact\"",
-        period, scene.run.dt, largest_share_of_period * period));
+    warnings.push_back(
+        fmt::format("a wall vibrates with a period of {:g}, but moves at its mean speed during each dt = {:g}: it "
+                    "gives the disks too little energy, or none; use dt <= {:.2g} or run.method = \"exact\"",
+                    period, scene.run.dt, largest_share_of_period * period));
   }
   if (!(smallest_radius > 0.0)) return warnings;
   const double side = std::max(scene.box.width, scene.box.height);
   if (smallest_radius < least_radius_share * side) {
     warnings.push_back(
-        fmt::format("in a box {:g} long positions are rounded to {:.2g} of the smallest radius; use a "
-                    "smaller box or larger disks",
+        fmt::format("in a box of length {:g} positions are rounded to {:.2g} of the smallest radius; use a smaller box "
+                    "or larger disks",
                     side, side * 0x1p-53 / smallest_radius));
   }
   // With gravity or Brownian motion the speeds at the start mean little.
@@ -211,10 +211,10 @@ std::vector<std::string> validity_warnings_at_start(const Scene& scene, double s
   const double way = steps ? fastest * scene.run.dt : 0.0;
   const double rounding = side * 0x1p-53;
   if (way > 0.0 && way < least_step_roundings * rounding) {
-    warnings.push_back(fmt::format(
-        "the fastest disk moves by {:.2g} in dt = {:g}, but in a box {:g} long positions are rounded to {:.2g}: "
-        "motion is lost in rounding; use a longer dt or run.method = \"exact\"",
-        way, scene.run.dt, side, rounding));
+    warnings.push_back(
+        fmt::format("the fastest disk moves by {:.2g} in dt = {:g}, but in a box of length {:g} positions are rounded "
+                    "to {:.2g}: motion is lost in rounding; use a longer dt or run.method = \"exact\"",
+                    way, scene.run.dt, side, rounding));
   }
   const double step = std::sqrt(2.0 * scene.physics.diffusion * scene.run.dt) / smallest_radius;
   if (step > largest_brownian_step) {

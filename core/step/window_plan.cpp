@@ -48,16 +48,16 @@ std::string partner_text(const Domain& box, DiskId id) {
   if (rules.box.has_moving_wall()) {
     // An elastic disk that starts at rest on a moving wall, or that a source on it emits, may stay on it.
     const bool may_rest = rules.gravity.acts();
-    throw PhysicsError(fmt::format(
-        "exact: time stands still at t = {}: disk {} and {} meet again and again at one moment; {}a wall that moves "
-        "may leave them no room ({}): {}move it less far, or take fewer or smaller disks",
-        start + event.time, event.id1, partner_text(rules.box, event.id2),
-        may_rest ? "they rest on each other, or " : "", moving_walls_text(rules.box, start + event.time),
-        may_rest ? "use run.method = \"pairwise\", " : ""));
+    throw PhysicsError(
+        fmt::format("exact: time stands still at t = {}: disk {} and {} collide again and again at one moment; {}a "
+                    "moving wall may leave them no room ({}): {}move the wall less far, or use fewer or smaller disks",
+                    start + event.time, event.id1, partner_text(rules.box, event.id2),
+                    may_rest ? "they rest on each other, or " : "", moving_walls_text(rules.box, start + event.time),
+                    may_rest ? "use run.method = \"pairwise\", " : ""));
   }
   throw PhysicsError(fmt::format(
-      "exact: time stands still at t = {}: disk {} and {} meet again and again at one moment; {}", start + event.time,
-      event.id1, partner_text(rules.box, event.id2),
+      "exact: time stands still at t = {}: disk {} and {} collide again and again at one moment; {}",
+      start + event.time, event.id1, partner_text(rules.box, event.id2),
       rules.tc()
           ? "physics.collapse.contact_time is too short for a double to tell such times apart: use a larger one, "
             "or run.method = \"pairwise\""
@@ -154,10 +154,9 @@ bool moving_walls_pushed(const Domain& box, const ImpactTally& tally) {
 
 // windows: their number; advanced: by how much they advanced time.
 [[noreturn]] void fail_slow(double time, Count windows, double advanced, const std::string& why) {
-  throw PhysicsError(fmt::format(
-      "exact: time all but stands still at t = {}: the last {} windows, as long as their events allow, advanced it by "
-      "{:.2g}; {}",
-      time, windows, advanced, why));
+  throw PhysicsError(
+      fmt::format("exact: time almost stands still at t = {}: the last {} windows advanced it by only {:.2g}; {}", time,
+                  windows, advanced, why));
 }
 
 // The reason if moving walls push disks. Disks that land on a wall with a sine motion may come to rest there, with hops
@@ -166,7 +165,8 @@ std::string slow_at_moving_walls(const Scene& scene, const WindowPlan& plan, dou
   const bool collapses = !plan.tc && loses_energy(scene);
   const bool may_rest = !plan.tc && (collapses || scene.physics.gravity.acts());
   return fmt::format(
-      "{}a wall that moves leaves the disks hardly any room ({}): {}{}move it less far, or take fewer or smaller disks",
+      "{}a moving wall leaves the disks hardly any room ({}): {}{}move the wall less far, or use fewer or smaller "
+      "disks",
       collapses  ? "disks come to rest on a wall (inelastic collapse), or "
       : may_rest ? "disks rest on a wall, or "
                  : "",
@@ -220,9 +220,9 @@ void check_pace(const Scene& scene, State& state, const WindowPlan& plan, const 
 
 void fail_collapse(const ExactRules& rules, const EventMark& event, double start) {
   throw PhysicsError(
-      fmt::format("exact: inelastic collapse at t = {}: the collisions of disk {} pile up in vanishing time, the last "
-                  "one with {}; set physics.collapse = {{ model = \"tc\", contact_time = ... }} (elastic where a disk "
-                  "collided less than contact_time ago) or use run.method = \"pairwise\"",
+      fmt::format("exact: inelastic collapse at t = {}: disk {} has more and more collisions in less and less time, "
+                  "the last one with {}; set physics.collapse = {{ model = \"tc\", contact_time = ... }} (collisions "
+                  "less than contact_time after another are elastic) or use run.method = \"pairwise\"",
                   start + event.time, event.id1, partner_text(rules.box, event.id2)));
 }
 

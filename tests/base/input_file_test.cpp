@@ -49,10 +49,10 @@ TEST_F(InputFile, StandardInputIsRead) {
 // Other processes, such as runs and ranks, cannot read files that only this process has open. They must find nothing
 // there, and not wait.
 TEST_F(InputFile, WhatSeveralProcessesReadHasAName) {
-  const std::string expected = "/dev/stdin: is read by several processes; expected the name of a file";
+  const std::string expected = "/dev/stdin: cannot be read by several processes; expected the name of a file";
   expect_error("$C sweep /dev/stdin -o s --seeds 2 <small.toml", 2, expected);
   expect_error("cat small.toml | $C sweep /dev/fd/0 -o s --seeds 2 --emit parallel", 2,
-               "/dev/fd/0: is read by several");
+               "/dev/fd/0: cannot be read by several");
   expect_error("$C run /dev/stdin --ranks 2 <small.toml", 2, expected);
   EXPECT_FALSE(std::filesystem::exists(at("s")));
   write("places.csv", "1,1\n3,3\n5,5\n7,7\n9,9\n");

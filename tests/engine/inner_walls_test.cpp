@@ -387,19 +387,19 @@ TEST(BadWall, OneLineEach) {
   EXPECT_EQ(with_wall("from = [1, 8]\nto = [8, 8]"), "");
   EXPECT_THAT(with_wall("from = [1, 8]"), HasSubstr("walls.0.to: missing; expected from = [x, y] and to = [x, y]"));
   EXPECT_THAT(with_wall("from = [1, 8, 2]\nto = [8, 8]"), HasSubstr("walls.0.from: has 3 numbers; expected [x, y]"));
-  EXPECT_THAT(with_wall("points = [[1, 8]]"), HasSubstr("walls.0.points: has 1 of them; expected two or more"));
-  EXPECT_THAT(with_wall("points = [[1, 8], [2, 8]]\nto = [8, 8]"), HasSubstr("walls.0.to: given beside points"));
-  EXPECT_THAT(with_wall("from = [1, 8]\nto = [1, 8]"), HasSubstr("walls.0.to: comes to [1, 8] twice in a row"));
+  EXPECT_THAT(with_wall("points = [[1, 8]]"), HasSubstr("walls.0.points: is a list of 1; expected two points or more"));
+  EXPECT_THAT(with_wall("points = [[1, 8], [2, 8]]\nto = [8, 8]"), HasSubstr("walls.0.to: cannot be used with points"));
+  EXPECT_THAT(with_wall("from = [1, 8]\nto = [1, 8]"), HasSubstr("walls.0.to: has the point [1, 8] twice in a row"));
   EXPECT_THAT(with_wall("from = [1, 8]\nto = [25, 8]"), HasSubstr("the point [25, 8] lies outside the box of 20 x 10"));
   EXPECT_THAT(with_wall("from = [1, 8]\nto = [8, 8]\nkind = \"snik\""), HasSubstr("(nearest: sink)"));
   EXPECT_THAT(with_wall("from = [1, 8]\nto = [8, 8]\nkind = \"sink\"\nrestitution = 0.5"),
-              HasSubstr("walls.0.restitution: given beside kind = \"sink\""));
+              HasSubstr("walls.0.restitution: cannot be used with kind = \"sink\""));
   EXPECT_THAT(with_wall("from = [1, 8]\nto = [8, 8]\nrestitution = 1.5"), HasSubstr("walls.0.restitution: is 1.5"));
   EXPECT_THAT(with_wall("from = [2, 1.5]\nto = [8, 8]"), HasSubstr("disk 0 overlaps the wall walls.0 by"));
   const std::string brownian = test::replaced(test::sound_scene, "restitution = 0.5", "diffusion = 0.1");
   EXPECT_THAT(test::complaint(
                   test::replaced(brownian, "[run]", "[[walls]]\nfrom = [1, 8]\nto = [8, 8]\nkind = \"sink\"\n[run]")),
-              HasSubstr("walls.0.kind: a sink within the box beside Brownian motion"));
+              HasSubstr("walls.0.kind: a sink inside the box cannot be used with Brownian motion"));
 }
 
 }  // namespace

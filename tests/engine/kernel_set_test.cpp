@@ -48,7 +48,7 @@ TEST_F(KernelSetProgram, AnUnknownSetIsOneLineAndStatusTwo) {
   const test::Outcome o = shell("CAROM_KERNELS=sse9 $C docs scene");
   EXPECT_EQ(o.status, 2);
   EXPECT_EQ(o.out, "");
-  EXPECT_EQ(o.err, "carom: error: CAROM_KERNELS: there are no kernels \"sse9\"; expected baseline, or nothing\n");
+  EXPECT_EQ(o.err, "carom: error: CAROM_KERNELS: there are no kernels \"sse9\"; expected baseline, or no value\n");
 }
 
 }  // namespace

@@ -83,14 +83,14 @@ TEST(ManyDisks, MoreThanListsCanNumberAreRefused) {
   EXPECT_EQ(failure_of([&] {
               lists.append(disks, first_too_many, {0.0, 0.0});
             }),
-            "exact: 2147000001 disks are more than one process can list, 2147000000; run it on several ranks, or by "
-            "method \"pairwise\"");
+            "exact: 2147000001 disks are more than one process can list, 2147000000; run the scene on several ranks, "
+            "or with method \"pairwise\"");
 }
 
 TEST(ManyDisks, MoreContactsThanCanBeNumberedAreRefused) {
   const std::string refused =
-      "pairwise: 4294967296 contacts in a step are more than one process can number, 4294967294; run it on several "
-      "ranks";
+      "pairwise: 4294967296 contacts in a step are more than one process can number, 4294967294; run the scene on "
+      "several ranks";
   Patches patches;
   EXPECT_EQ(failure_of([&] { take_as_one_patch(patches, beyond); }), refused);
   EXPECT_EQ(failure_of([&] { lay_out(patches, Disks{}, {}, beyond, Executor(1)); }), refused);
@@ -101,11 +101,11 @@ TEST(ManyDisks, MoreOfAPileThanCanBeNumberedAreRefused) {
   patches.start = {0, 0};
   SupportBatches batches;
   EXPECT_EQ(failure_of([&] { begin_batches(batches, patches, most_disks_of_pile + 1); }),
-            "pairwise: 2146435073 disks of a pile are more than one process can number, 2146435072; run it on several "
-            "ranks");
+            "pairwise: 2146435073 disks of a pile are more than one process can number, 2146435072; run the scene on "
+            "several ranks");
   batches.first = {0, 1U << 30U};
   EXPECT_EQ(failure_of([&] { lay_out_batches(batches); }),
-            "pairwise: 4294967296 slots of supports are more than one process can number, 4294967294; run it on "
+            "pairwise: 4294967296 slots of supports are more than one process can number, 4294967294; run the scene on "
             "several ranks");
 }
 

@@ -177,19 +177,19 @@ TEST(SinkBesideAMovingSide, TakesWhatThePistonDrivesIntoIt) {
 TEST(BadMotion, RunsIntoWhatDoesNotYield) {
   EXPECT_EQ(refusal(piston, peg, 13.9), "");
   EXPECT_EQ(refusal(piston, peg, 14.1),
-            "motion.toml:8: disks.0.positions: the right side runs into fixed disk 0, of radius 1 at (5, 10), at t = "
-            "14; expected fixed disks where no side comes until run.t_end = 14.1");
+            "motion.toml:8: disks.0.positions: the right side hits fixed disk 0, of radius 1 at (5, 10), at t = 14; "
+            "expected fixed disks that no side reaches until run.t_end = 14.1");
   EXPECT_EQ(refusal(piston, wall + ball, 13.9), "");
   EXPECT_EQ(refusal(piston, wall + ball, 14.5),
-            "motion.toml:5: walls.0: the right side runs into it at t = 14; expected walls where no side comes until "
-            "run.t_end = 14.5");
+            "motion.toml:5: walls.0: the right side hits this wall at t = 14; expected walls that no side reaches "
+            "until run.t_end = 14.5");
   const std::string shaken =
       "bottom = { motion = { vibrate = [0, -0.5], period = 2 } }";  // the floor moves down at first
   const auto low_wall = [](double y) { return fmt::format("[[walls]]\nfrom = [5, {}]\nto = [9, {}]\n", y, y); };
   EXPECT_EQ(refusal(shaken, low_wall(1.001) + ball, 9.0), "");
-  EXPECT_THAT(refusal(shaken, low_wall(0.999) + ball, 9.0), HasSubstr("the bottom side runs into it at t = 1.4"));
+  EXPECT_THAT(refusal(shaken, low_wall(0.999) + ball, 9.0), HasSubstr("the bottom side hits this wall at t = 1.4"));
   EXPECT_EQ(refusal(shaken, low_wall(0.999) + ball, 1.4), "") << "the run ends before the floor comes so far";
-  EXPECT_THAT(refusal(shaken, low_wall(0.2) + ball, 9.0), HasSubstr("the bottom side runs into it at t = 0;"));
+  EXPECT_THAT(refusal(shaken, low_wall(0.2) + ball, 9.0), HasSubstr("the bottom side hits this wall at t = 0;"));
   // A side may move away from a wall that it touches.
   EXPECT_EQ(refusal("right = { place = 15, motion = { velocity = [1, 0] } }",
                     "[[walls]]\nfrom = [12, 5]\nto = [15, 5]\n" + ball, 2.0),
@@ -201,8 +201,8 @@ TEST(BadMotion, SweepsOverARegion) {
       "[[sources]]\nregion = [12, 2, 18, 18]\nrate = 1.0\nradius = { uniform = [0.1, 0.5] }\nmass = 1.0\n";
   EXPECT_EQ(refusal(piston, source, 7.4), "");
   EXPECT_EQ(refusal(piston, source, 7.6),
-            "motion.toml:6: sources.0.region: the right side leaves no place in it for the centre of a disk of radius "
-            "0.5 from t = 7.5; expected a region of which a part stays clear until run.t_end = 7.6");
+            "motion.toml:6: sources.0.region: the right side leaves no place in this region for the centre of a disk "
+            "of radius 0.5 from t = 7.5 on; expected a region of which some part stays free until run.t_end = 7.6");
 }
 
 }  // namespace

@@ -334,7 +334,7 @@ TEST(LongMovingWall, StopsWhereItWouldCrushADisk) {
     } catch (const PhysicsError& e) {
       error = e.what();
     }
-    EXPECT_THAT(error, AllOf(HasSubstr("a wall that moves"), HasSubstr("wall walls.0 has moved by ("))) << error;
+    EXPECT_THAT(error, AllOf(HasSubstr("a moving wall"), HasSubstr("wall walls.0 has moved by ("))) << error;
     EXPECT_LT(engine->state().time, 10.6);
     EXPECT_GT(engine->state().time, 9.5);
   }
@@ -371,7 +371,7 @@ TEST(BadWallMotion, IsRefusedInOneLine) {
   EXPECT_EQ(refusal("", with("velocity = [1, 0]"), 14.9), "");
   EXPECT_EQ(refusal("", with("velocity = [1, 0]"), 16.0),
             "moving.toml:7: walls.0.motion: brings the wall to x = 21, beyond the right side, before run.t_end = 16; "
-            "expected it to stay in the box");
+            "expected a wall that stays in the box");
   EXPECT_EQ(refusal("left = \"periodic\"\nright = \"periodic\"", with("velocity = [1, 0]"), 160.0), "");
   EXPECT_THAT(refusal("", with("vibrate = [0, 3], period = 1"), 9.0),
               HasSubstr("brings the wall to y = -1, beyond the bottom side"));
@@ -381,16 +381,14 @@ TEST(BadWallMotion, IsRefusedInOneLine) {
   EXPECT_THAT(refusal("", with("velocity = [1, 0], vibrate = [1, 0]"), 9.0),
               HasSubstr("has both velocity and vibrate"));
   EXPECT_THAT(refusal("", "[physics]\ndiffusion = 0.1\n" + with("velocity = [1, 0]"), 9.0),
-              HasSubstr("walls.0.motion: given beside physics.diffusion"));
-  EXPECT_THAT(
-      refusal("left = { motion = { velocity = [1, 0] } }", with("vibrate = [1, 0], period = 2"), 9.0),
-      HasSubstr("walls.0.motion: the left side comes into the room that it moves through at t = 4; expected ways"));
+              HasSubstr("walls.0.motion: cannot be used with physics.diffusion"));
+  EXPECT_THAT(refusal("left = { motion = { velocity = [1, 0] } }", with("vibrate = [1, 0], period = 2"), 9.0),
+              HasSubstr("walls.0.motion: the left side enters the path of this wall at t = 4; expected paths"));
   const std::string floor = "bottom = { motion = { vibrate = [0, 0.5], period = 2 } }";
   const auto above = [&](const std::string& motion) { return wall("[[3, 0.6], [7, 0.6]]", motion) + ball; };
   const auto overlap = HasSubstr(
-      "the bottom side comes into the room that it moves through at t = 0; expected ways of the two that do not "
-      "overlap "
-      "until run.t_end = 9");
+      "the bottom side enters the path of this wall at t = 0; expected paths of the two that do not overlap until "
+      "run.t_end = 9");
   EXPECT_THAT(refusal(floor, above("vibrate = [0, 0.5], period = 3"), 9.0), overlap);
   EXPECT_THAT(refusal(floor, above("vibrate = [0, 0.5], period = 2, shape = \"sine\""), 9.0), overlap);
   // A wall a tenth above the floor that moves with it. With an amplitude of 0.39 it is 0.01 below the floor at the
@@ -403,7 +401,7 @@ TEST(BadWallMotion, IsRefusedInOneLine) {
   // The wall's motion with the floor must not hide the overlap with another side's motion.
   EXPECT_THAT(
       refusal(floor + "\nleft = { motion = { velocity = [0.5, 0] } }", above("vibrate = [0, 0.5], period = 2"), 9.0),
-      HasSubstr("the left side comes into the room that it moves through at t = 6"));
+      HasSubstr("the left side enters the path of this wall at t = 6"));
   EXPECT_EQ(refusal("left = { motion = { velocity = [1, 0] } }", with("velocity = [1, 0]"), 9.0), "");
 }
 

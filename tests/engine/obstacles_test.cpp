@@ -201,13 +201,15 @@ std::string with_fixed(std::string_view line) {
 
 TEST(BadFixedDisk, OneLineEach) {
   using testing::StartsWith;
-  EXPECT_THAT(with_fixed("mass = inf"),
-              StartsWith("gas.toml:18: disks.0.mass: is inf; expected a number above 0; fixed = true"));
+  EXPECT_THAT(
+      with_fixed("mass = inf"),
+      StartsWith(
+          "gas.toml:18: disks.0.mass: is inf; expected a number above 0; for disks that never move use fixed = true"));
   EXPECT_EQ(with_fixed("fixed = true"),
-            "gas.toml:16: disks.0.velocities: given beside fixed = true; expected fixed disks without this key");
+            "gas.toml:16: disks.0.velocities: cannot be used with fixed = true; expected fixed disks without this key");
   EXPECT_EQ(with_fixed("mass = 2.0\nfixed = true"),
-            "gas.toml:18: disks.0.mass: given beside fixed = true, an infinite mass; expected fixed disks without this "
-            "key");
+            "gas.toml:18: disks.0.mass: cannot be used with fixed = true, which is an infinite mass; expected fixed "
+            "disks without this key");
   EXPECT_THAT(with_fixed("mass = 2.0\nfixed = 1"),
               StartsWith("gas.toml:19: disks.0.fixed: is an integer; expected true or false"));
   EXPECT_THAT(with_fixed("mass = 2.0\nfixd = true"), testing::HasSubstr("(nearest: fixed)"));
@@ -230,7 +232,7 @@ TEST(BadFixedDisk, DoesNotGrow) {
   EXPECT_EQ(test::complaint(growing), "");
   EXPECT_THAT(
       test::complaint(test::replaced(growing, "positions = [[0.5, 5.0], [1.0, 5.0]]", "positions = \"growth\"")),
-      testing::HasSubstr("disks.1.positions: is \"growth\" of fixed disks"));
+      testing::HasSubstr("disks.1.positions: is \"growth\" for fixed disks"));
 }
 
 }  // namespace

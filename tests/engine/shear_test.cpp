@@ -355,24 +355,23 @@ TEST(Shear, RefusesWhatItDoesNotGoWith) {
     return refusal(g);
   };
   EXPECT_EQ(with_physics("gravity = 1.0"),
-            "shear.toml:8: box.shear_rate: given beside physics.gravity; expected one of the two");
-  EXPECT_NE(with_physics("diffusion = 0.1").find("given beside physics.diffusion"), std::string::npos);
+            "shear.toml:8: box.shear_rate: cannot be used with physics.gravity; expected one of the two");
+  EXPECT_NE(with_physics("diffusion = 0.1").find("cannot be used with physics.diffusion"), std::string::npos);
   EXPECT_NE(with_physics("restitution = 0.5\ncollapse = { model = \"tc\", contact_time = 1e-6 }")
-                .find("given beside physics.collapse"),
+                .find("cannot be used with physics.collapse"),
             std::string::npos);
   f.method = "auto";
   f.more = "accuracy = 0.01\n";
-  EXPECT_EQ(
-      refusal(f),
-      "shear.toml:18: run.method: is \"auto\" beside box.shear_rate, whose errors are not known; expected a method "
-      "by name");
+  EXPECT_EQ(refusal(f),
+            "shear.toml:18: run.method: is \"auto\", but the errors of methods with box.shear_rate are not known; "
+            "expected a method by name");
   f = {};
   f.more = "[[walls]]\nfrom = [1.0, 1.0]\nto = [2.0, 2.0]\n";
-  EXPECT_NE(refusal(f).find("given beside [[walls]]"), std::string::npos);
+  EXPECT_NE(refusal(f).find("cannot be used with [[walls]]"), std::string::npos);
   f.more = "[[sources]]\nregion = [1, 1, 5, 5]\nrate = 1.0\nradius = 0.1\nmass = 1.0\n";
-  EXPECT_NE(refusal(f).find("given beside [[sources]]"), std::string::npos);
+  EXPECT_NE(refusal(f).find("cannot be used with [[sources]]"), std::string::npos);
   f.more = "[[disks]]\nfixed = true\ncount = 1\npositions = \"random\"\nradius = 0.1\n";
-  EXPECT_NE(refusal(f).find("given beside fixed disks"), std::string::npos);
+  EXPECT_NE(refusal(f).find("cannot be used with fixed disks"), std::string::npos);
   f = {};
   f.rate = "1e31";
   EXPECT_EQ(refusal(f), "shear.toml:8: box.shear_rate: is 1e+31; expected a rate from 1e-30 to 1e+30");

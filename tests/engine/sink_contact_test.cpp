@@ -108,8 +108,8 @@ TEST(SinkSource, BrownianDisksThatWouldVanishAtOnceAreRefused) {
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "gas.toml:8: sources.0.side: left is a sink, which takes Brownian disks that start at it at once; "
-                 "expected a wall side, or a region away from the sink");
+                 "gas.toml:8: sources.0.side: left is a sink, which would remove Brownian disks that start there at "
+                 "once; expected a wall side, or a region away from the sink");
   }
 }
 

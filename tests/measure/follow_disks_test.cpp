@@ -145,7 +145,7 @@ TEST(FollowDisks, ADiskThatIsHitAfterLongRestIsNoDoubt) {
 TEST(FollowDisks, ADoubtSaysWhatHelps) {
   Scene scene = test::scene_of(Method::exact, 10.0, 10.0, 0.0, 1.0);
   const auto text = [&] { return doubt_text({}, scene, "trajectory", "its counts", "output.every"); };
-  EXPECT_THAT(text(), EndsWith("its counts may be wrong from there on; use a smaller output.every"));
+  EXPECT_THAT(text(), EndsWith("its counts may be wrong from then on; use a smaller output.every"));
   scene.physics.diffusion = 1.0;
   EXPECT_THAT(text(), EndsWith("; use a smaller dt"));
   scene.physics.diffusion = 0.0;

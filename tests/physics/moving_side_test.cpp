@@ -260,7 +260,7 @@ TEST(MovingSide, LetsDisksStartWhereThereIsRoom) {
     initial_state(scene_with("\"random\"\nregion = [4.5, 1.0, 11.9, 9.5]"));
     ADD_FAILURE() << "no error, though the region reaches beyond the left side";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("region: reaches beyond a side that moves"));
+    EXPECT_THAT(error.what(), HasSubstr("region: reaches beyond a moving side"));
   }
   try {
     initial_state(scene_with("[[5.3, 1.0], [8.0, 5.0]]", 2));

@@ -60,7 +60,7 @@ TEST_F(LongFrameStart, WhatIsNoFrameIsRefused) {
   for (const auto& [law, expected] : std::vector<std::pair<std::string, std::string>>{
            {"{ frame = \"first\", index = 9 }", "there is no frame 9; expected 1 to 5"},
            {"{ frame = \"nowhere\" }", "does not exist"},
-           {"{ frame = \"first\", index = 1, time = 2.0 }", "given beside index"},
+           {"{ frame = \"first\", index = 1, time = 2.0 }", "cannot be used with index"},
            {"{ frame = \"first\", indx = 1 }", "indx: unknown key"},
            {"{ frame = \"first\", index = 0 }", "index: is 0; expected a whole number, 1 or more"},
            {"{ frame = \"first\", index = -1 }", "index: is -1; expected a whole number, 1 or more"},
@@ -108,7 +108,7 @@ TEST_F(LongFrameStart, DisksDoNotFlyOnAsBrownianDisksHop) {
     const bool fine = std::string_view(brownian) == "diffusion = 0.5\n";  // here velocities are forgotten in each step
     EXPECT_EQ(o.status, fine ? 0 : 2) << brownian << o.err;
     if (fine) continue;
-    EXPECT_THAT(o.err, HasSubstr("velocities: are of first, whose disks are Brownian: u / dt of a step; expected"));
+    EXPECT_THAT(o.err, HasSubstr("velocities: are from first, whose Brownian disks have no velocities; expected"));
   }
 }
 
@@ -133,7 +133,7 @@ TEST_F(LongFrameStart, AShearFlowIsNotAddedAgain) {
   std::filesystem::remove(at("first/scene.toml"));
   const test::Outcome o = carom("check second.toml");
   EXPECT_EQ(o.status, 2);
-  EXPECT_THAT(o.err, HasSubstr("velocities: are of first, which does not tell whether they have a shear flow in them; "
+  EXPECT_THAT(o.err, HasSubstr("velocities: are from first, which does not tell whether they include a shear flow; "
                                "expected the folder of a run, with its scene.toml"));
 }
 

@@ -153,8 +153,10 @@ TEST(NamedGroups, BadNamesAreNamedByFileLineAndKey) {
   EXPECT_THAT(named("\"\"\n"), HasSubstr("disks.2.name: is \"\"; expected a letter"));
   EXPECT_THAT(named("\"2nd\"\n"), HasSubstr("expected a letter"));
   EXPECT_THAT(named("\"sources\"\n"), HasSubstr("is \"sources\", which names the disks of all [[sources]]"));
-  EXPECT_THAT(named("\"bath\"\n"),
-              StartsWith("gas.toml:22: disks.2.name: is \"bath\", the name of disks.0; expected a name of its own"));
+  EXPECT_THAT(
+      named("\"bath\"\n"),
+      StartsWith(
+          "gas.toml:22: disks.2.name: is \"bath\", the name of disks.0; expected a name that no other group has"));
   EXPECT_THAT(named("7\n"), HasSubstr("disks.2.name: is an integer; expected a string"));
 }
 

@@ -111,7 +111,7 @@ TEST(BadPair, OneLineEach) {
             "gas.toml:10: physics.pairs.0.groups.1: unknown group \"haevy\"; expected one of light, heavy, pegs, "
             "posts, sources (nearest: heavy)");
   EXPECT_EQ(complaint(pair_of(R"(["light"])")),
-            "gas.toml:10: physics.pairs.0.groups: has 1 of them; expected the names of two groups, as in [\"light\", "
+            "gas.toml:10: physics.pairs.0.groups: is a list of 1; expected the names of two groups, as in [\"light\", "
             "\"heavy\"]");
   EXPECT_THAT(complaint(pair_of(R"("light")")),
               StartsWith("gas.toml:10: physics.pairs.0.groups: is a string; expected"));
@@ -138,8 +138,8 @@ TEST(BadPair, OneLineEach) {
 TEST(BadPair, StatedTwice) {
   EXPECT_EQ(complaint(with("[[physics.pairs]]\ngroups = [\"light\", \"heavy\"]\nrestitution = 0.5\n"
                            "[[physics.pairs]]\ngroups = [\"heavy\", \"light\"]\nrestitution = 0.5")),
-            "gas.toml:13: physics.pairs.1.groups: are light and heavy, which are a pair already; expected each pair "
-            "once, in either order");
+            "gas.toml:13: physics.pairs.1.groups: are light and heavy, a pair that is already given; expected each "
+            "pair once, in either order");
 }
 
 std::string with_law(std::string_view law, std::string_view more = "") {
@@ -148,7 +148,7 @@ std::string with_law(std::string_view law, std::string_view more = "") {
 
 TEST(BadLaw, OneLineEach) {
   EXPECT_THAT(with_law("{ least = 0.5 }"),
-              StartsWith("gas.toml:8: physics.restitution.viscoelastic: missing; expected a"));
+              StartsWith("gas.toml:8: physics.restitution.viscoelastic: missing; expected the number a in e(v)"));
   EXPECT_THAT(with_law("{ viscoelastic = 0 }"),
               StartsWith("gas.toml:8: physics.restitution.viscoelastic: is 0; expected a number above 0"));
   EXPECT_THAT(with_law("{ viscoelastic = 0.1, least = 1 }"),

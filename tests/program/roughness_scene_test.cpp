@@ -85,32 +85,32 @@ TEST(BadRoughness, OneLineEach) {
   EXPECT_THAT(complaint(rough("{ tangential_restitution = 0.5, fricton = 1 }")),
               AllOf(StartsWith("gas.toml:12: physics.roughness.fricton: unknown key"), HasSubstr("nearest: friction")));
   EXPECT_THAT(complaint(rough("{ tangential_restitution = 0.5 }", "diffusion = 0.5")),
-              StartsWith("gas.toml:12: physics.roughness: given beside physics.diffusion"));
+              StartsWith("gas.toml:12: physics.roughness: cannot be used with physics.diffusion"));
   EXPECT_THAT(complaint(walls("{ tangential_restitution = -2.0 }")),
               StartsWith("gas.toml:7: box.wall_roughness.tangential_restitution: is -2"));
   EXPECT_THAT(complaint(walls("{ tangential_restitution = 0.5, inertia = 0.5 }")),
               StartsWith("gas.toml:7: box.wall_roughness.inertia: unknown key"));
   EXPECT_THAT(complaint(replaced(sound_scene, "left = ", "wall_roughness = { tangential_restitution = 0.5 }\nleft = ")),
-              StartsWith("gas.toml:7: box.wall_roughness: given without physics.roughness"));
+              StartsWith("gas.toml:7: box.wall_roughness: cannot be used without physics.roughness"));
 }
 
 TEST(BadSpin, OneLineEach) {
   EXPECT_THAT(complaint(replaced(sound_scene, "velocities =", "spin = 1.0\nvelocities =")),
-              StartsWith("gas.toml:16: disks.0.spin: given without physics.roughness"));
+              StartsWith("gas.toml:16: disks.0.spin: cannot be used without physics.roughness"));
   EXPECT_THAT(complaint(replaced(sound_scene, "velocities =", "spin_temperature = 1.0\nvelocities =")),
-              StartsWith("gas.toml:16: disks.0.spin_temperature: given without physics.roughness"));
+              StartsWith("gas.toml:16: disks.0.spin_temperature: cannot be used without physics.roughness"));
   EXPECT_THAT(complaint(spinning("spin = [1.0, 2.0]")),
               StartsWith("gas.toml:17: disks.0.spin: has 2 entries for count = 3"));
   EXPECT_THAT(complaint(spinning("spin = []")), StartsWith("gas.toml:17: disks.0.spin: is an empty list"));
   EXPECT_THAT(complaint(spinning("spin = \"fast\"")), StartsWith("gas.toml:17: disks.0.spin: is a string; expected"));
   EXPECT_THAT(complaint(spinning("spin = 1e31")), StartsWith("gas.toml:17: disks.0.spin: is 1e+31; expected a rate"));
   EXPECT_THAT(complaint(spinning("spin = 1.0\nspin_temperature = 1.0")),
-              StartsWith("gas.toml:18: disks.0.spin_temperature: given beside spin"));
+              StartsWith("gas.toml:18: disks.0.spin_temperature: cannot be used with spin"));
   EXPECT_THAT(complaint(spinning("spin_temperature = -1.0")),
               StartsWith("gas.toml:17: disks.0.spin_temperature: is -1"));
   EXPECT_THAT(complaint(spinning("spin = 1.0") + "[[disks]]\nfixed = true\ncount = 1\npositions = [[15, 5]]\n"
                                                  "radius = 1.0\nspin = 1.0\n"),
-              HasSubstr("disks.1.spin: given beside fixed = true"));
+              HasSubstr("disks.1.spin: cannot be used with fixed = true"));
   EXPECT_THAT(complaint(spinning("spin = 1.0") + "[[sources]]\nside = \"top\"\nrate = 1.0\nradius = 0.5\nmass = 1.0\n"
                                                  "spin = [1.0]\n"),
               HasSubstr("sources.0.spin: is a list"));
@@ -177,7 +177,7 @@ TEST_F(RoughRun, CheckSaysThatASmoothWallDragsNothing) {
     return carom("check s.toml").out;
   };
   const std::string rough_disks = "roughness = { tangential_restitution = 0.5 }\n";
-  const auto trouble = HasSubstr("walls.0 moves along itself and is smooth");
+  const auto trouble = HasSubstr("walls.0 moves along itself but is smooth");
   EXPECT_THAT(check("", "", "[[0.0, 1.0], [10.0, 1.0]]"), trouble);
   EXPECT_THAT(check("", rough_disks, "[[10.0, 1.0], [0.0, 1.0]]"), trouble);
   EXPECT_THAT(check("wall_roughness = { tangential_restitution = 0.5 }\n", rough_disks, "[[0.0, 1.0], [10.0, 1.0]]"),

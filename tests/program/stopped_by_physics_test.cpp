@@ -32,7 +32,7 @@ series = true
 )");
   const Outcome o = carom("run pile.toml --quiet -o out");
   EXPECT_EQ(o.status, 3);
-  EXPECT_THAT(o.err, HasSubstr("the run up to there is kept in out/carom-unfinished, its last good state in "
+  EXPECT_THAT(o.err, HasSubstr("the results up to there are kept in out/carom-unfinished, its last good state in "
                                "checkpoint.carom; carom resume out --t-end "));
   const Outcome again = carom("resume out --quiet");
   EXPECT_EQ(again.status, 3);
@@ -62,7 +62,7 @@ series = true
 )");
   const Outcome o = carom("run press.toml --quiet -o out");
   EXPECT_EQ(o.status, 3);
-  EXPECT_THAT(o.err, HasSubstr("a wall that moves leaves no room at t = "));
+  EXPECT_THAT(o.err, HasSubstr("a moving wall leaves no room at t = "));
   EXPECT_THAT(o.err, HasSubstr("kept in out/carom-unfinished, its last state in checkpoint.carom; "));
   EXPECT_EQ(carom("resume out --quiet").err, o.err);
   const std::size_t begin = o.err.find("carom resume out");

@@ -86,10 +86,10 @@ TEST(AnalysisScene, OneLineForWhatItDoesNotTake) {
        "gas.toml:24: analysis.what: missing; expected a list of what to measure, as in "
        "[\"pair_correlation\"]"},
       {"what = \"speeds\"", "analysis.what: is a string; expected a list of what to measure"},
-      {"what = [\"structure_factor\"]", "analysis.what: structure_factor goes by waves along periodic sides, and no"},
+      {"what = [\"structure_factor\"]", "analysis.what: structure_factor needs waves along periodic sides, and no"},
       {"what = [\"profile\"]\nprofile = { bins = 0 }",
        "analysis.profile.bins: is 0; expected a whole number from 1 to"},
-      {"what = [\"speeds\"]\nprofile = { bins = 3 }", "analysis.profile: has options, but what does not name it"},
+      {"what = [\"speeds\"]\nprofile = { bins = 3 }", "analysis.profile: has options, but what does not contain it"},
       {"what = [\"profile\"]\nprofile = { axis = \"z\" }", "analysis.profile.axis: unknown name \"z\""},
       {"what = [\"speed\"]",
        "gas.toml:25: analysis.what.0: unknown quantity \"speed\"; expected one of "
@@ -100,8 +100,7 @@ TEST(AnalysisScene, OneLineForWhatItDoesNotTake) {
       {"what = []\nevery = -1", "analysis.every: is -1"},
       {"what = []\nstart = 11", "analysis.start: is 11, after the end of the run; expected at most run.t_end = 10"},
       {"what = []\ndensity = { bins = 3 }",
-       "analysis.density: has options, but what does not name it; expected "
-       "\"density\" in what"},
+       "analysis.density: has options, but what does not contain it; expected \"density\" in what"},
       {"what = [\"density\"]\ndensity = { bins = 0 }",
        "analysis.density.bins: is 0; expected a whole number from 1 to "
        "100000"},

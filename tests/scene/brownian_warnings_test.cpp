@@ -46,7 +46,7 @@ t_end = 1.0
   EXPECT_THAT(warned("", ""), testing::IsEmpty());
   EXPECT_THAT(
       warned("gravity = [0.0, 3.0]\n", ""),
-      testing::ElementsAre(AllOf(HasSubstr("physics.gravity: Brownian disks"), HasSubstr("g dt / 2 = 0.015 "))));
+      testing::ElementsAre(AllOf(HasSubstr("physics.gravity: Brownian disks"), HasSubstr("g dt / 2 = 0.015,"))));
   EXPECT_THAT(
       warned("restitution = 0.9\n", ""),
       testing::ElementsAre(AllOf(HasSubstr("physics.restitution: Brownian disks"), HasSubstr(" = 0.1 of contact"))));
@@ -77,14 +77,15 @@ t_end = 1.0
   EXPECT_THAT(warned("gravity = 3.0\naccumulate = true\n", "", {{"disks.0.mass", "{ uniform = [1, 2] }"}}),
               testing::IsEmpty());
   EXPECT_THAT(warned("", "", {{"disks.0.mass", "{ from_radius = 3.0 }"}}),
-              testing::ElementsAre(HasSubstr("disks.mass: Brownian disks have no velocity")));
+              testing::ElementsAre(HasSubstr("disks.mass: Brownian disks have no velocities")));
   EXPECT_THAT(warned("", "[[sources]]\nregion = [5.0, 5.0, 9.0, 9.0]\nrate = 1.0\nradius = 0.1\nmass = 2.0\n"),
-              testing::ElementsAre(HasSubstr("disks.mass: Brownian disks have no velocity")));
+              testing::ElementsAre(HasSubstr("disks.mass: Brownian disks have no velocities")));
   EXPECT_THAT(warned("", "[[disks]]\ncount = 0\npositions = \"random\"\nradius = 0.1\nmass = 2.0\n"),
               testing::IsEmpty());
   EXPECT_THAT(
       warned("", "[analysis]\nwhat = [\"profile\", \"velocity_autocorrelation\", \"density\", \"collision_rate\"]\n"),
-      testing::ElementsAre(HasSubstr("grow in number as 1 / sqrt(dt)"), HasSubstr("temperature are those of u / dt"),
+      testing::ElementsAre(HasSubstr("their number grows as 1 / sqrt(dt)"),
+                           HasSubstr("temperature of the profile are those of u / dt"),
                            HasSubstr("autocorrelation is that")));
 }
 
@@ -118,8 +119,8 @@ t_end = 1.0
   };
   constexpr std::string_view brownian = "diffusion = 0.5";
   constexpr std::string_view forgotten =
-      "Brownian disks have no velocity, u / dt is the displacement of a step: those "
-      "given here are forgotten in the first step, and nothing drifts";
+      "Brownian disks have no velocities, only a displacement u in each step: the velocities given here are forgotten "
+      "in the first step, and the disks do not drift";
   EXPECT_THAT(warned(brownian, ""), testing::IsEmpty());
   EXPECT_THAT(warned(brownian, "velocities = { maxwell = 1.0 }"), testing::IsEmpty());
   EXPECT_THAT(warned(brownian, "velocities = [[0, 0], [0, 0]]"), testing::IsEmpty());

@@ -62,7 +62,7 @@ TEST(FrameKeys, RadiiOfAFrameAreScaled) {
     scene("1.0", half);
     FAIL() << "the scene was accepted";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("mass.scale: is given for mass; expected it for radius alone"));
+    EXPECT_THAT(error.what(), HasSubstr("mass.scale: cannot be used for mass; expected it only for radius"));
   }
 }
 
@@ -84,7 +84,7 @@ TEST(FrameKeys, VelocitiesOfBrownianDisksServeBrownianDisks) {
   };
   EXPECT_THAT(complaint("diffusion = 0.1\n"), IsEmpty());
   for (const char* const other : {"", "diffusion = 0.1\naccumulate = true\n"}) {
-    EXPECT_THAT(complaint(other), HasSubstr("disks.0.velocities: are of out, whose disks are Brownian")) << other;
+    EXPECT_THAT(complaint(other), HasSubstr("disks.0.velocities: are from out, whose Brownian disks")) << other;
   }
 }
 

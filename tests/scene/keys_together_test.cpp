@@ -86,7 +86,7 @@ TEST(KeysTogether, BrownianDisksGoAsFarAsAllTheirSteps) {
 TEST(KeysTogether, KicksAreCounted) {
   EXPECT_THAT(complaint(scene_with(
                   "", "thermostat = { kind = \"langevin\", temperature = 1.0, rate = 1.0, dt = 1e-20 }\n", "", "")),
-              HasSubstr("physics.thermostat.dt: is 1e-20: 1e+21 kicks until run.t_end = 10"));
+              HasSubstr("physics.thermostat.dt: is 1e-20, which makes 1e+21 kicks until run.t_end = 10"));
 }
 
 // Only methods with steps need kicks that are no more frequent than steps.
@@ -102,9 +102,9 @@ TEST(KeysTogether, KicksMayComeMoreOftenThanAStepThatExactDoesNotTake) {
 TEST(KeysTogether, SmoothDisksHaveNoSpin) {
   const std::string source = "[[sources]]\nside = \"left\"\nrate = 1.0\nradius = 1.0\nmass = 2.0\n";
   EXPECT_THAT(complaint(scene_with("", "", "", source + "spin = 2.0\n")),
-              HasSubstr("sources.0.spin: given without physics.roughness"));
+              HasSubstr("sources.0.spin: cannot be used without physics.roughness"));
   EXPECT_THAT(complaint(scene_with("", "", "", source + "spin_temperature = 2.0\n")),
-              HasSubstr("sources.0.spin_temperature: given without physics.roughness"));
+              HasSubstr("sources.0.spin_temperature: cannot be used without physics.roughness"));
 }
 
 // 9 sqrt(T / (q m)) is the largest speed of a surface: q = 1e-6 makes it a thousand times that for q = 1.
@@ -118,7 +118,8 @@ TEST(KeysTogether, SurfacesHaveASpeedWithinItsRange) {
   EXPECT_THAT(said("1e-6", ""), HasSubstr("disks.0.spin_temperature: is 1e+115"));
   const std::string hot =
       "[[sources]]\nside = \"left\"\nrate = 1.0\nradius = 1.0\nmass = 2.0\nspin_temperature = 1e119\n";
-  EXPECT_THAT(said("1.0", hot), HasSubstr("sources.0.spin_temperature: is 1e+119: a surface has a speed of 2.01"));
+  EXPECT_THAT(said("1.0", hot),
+              HasSubstr("sources.0.spin_temperature: is 1e+119, which gives a surface a speed of 2.01"));
   EXPECT_THAT(said("0.01", replaced(hot, "1e119", "1e117")), HasSubstr("sources.0.spin_temperature: is 1e+117"));
 }
 
@@ -127,15 +128,16 @@ TEST(KeysTogether, AShearedBoxHasRoomAndNoCollapse) {
   const std::string text = scene_with(torus + "shear_rate = 0.1\n", "", "", "");
   EXPECT_THAT(complaint(text), IsEmpty());
   EXPECT_THAT(complaint(replaced(text, "height = 10.0", "height = 7.9")),
-              HasSubstr("box.shear_rate: given of a box of 20 x 7.9 with a disk of radius 1"));
+              HasSubstr("box.shear_rate: cannot be used in a box of 20 x 7.9 with a disk of radius 1"));
   const std::string narrow = replaced(replaced(text, "width = 20.0", "width = 7.9"), "[8, 2]]", "[5, 8]]");
-  EXPECT_THAT(complaint(narrow), HasSubstr("box.shear_rate: given of a box of 7.9 x 10 with a disk of radius 1"));
+  EXPECT_THAT(complaint(narrow),
+              HasSubstr("box.shear_rate: cannot be used in a box of 7.9 x 10 with a disk of radius 1"));
   EXPECT_THAT(
       complaint(replaced(replaced(text, "shear_rate = 0.1", "shear_rate = 1e8"), "t_end = 10.0", "t_end = 1e9")),
-      HasSubstr("box.shear_rate: is 100000000: the images above move at 1000000000, 5e+16 widths"));
+      HasSubstr("box.shear_rate: is 100000000: the images above move at a speed of 1000000000, by 5e+16 widths"));
   EXPECT_THAT(complaint(replaced(text, "[physics]\n",
                                  "[physics]\nrestitution = 0.9\ncollapse = { model = \"tc\", contact_time = 1e-6 }\n")),
-              HasSubstr("box.shear_rate: given beside physics.collapse"));
+              HasSubstr("box.shear_rate: cannot be used with physics.collapse"));
 }
 
 // Sides with different periods do not stay in phase: they come as close to each other as both come into the box.
@@ -148,7 +150,7 @@ TEST(KeysTogether, SidesOfTwoPeriodsMeetInTheEnd) {
             period),
         "", "", ""));
   };
-  EXPECT_THAT(said("1.5"), HasSubstr("brings the left and right sides to 1 of each other"));
+  EXPECT_THAT(said("1.5"), HasSubstr("brings the left and right sides within 1 of each other"));
   EXPECT_THAT(said("1.0"), Not(HasSubstr("brings the left and right sides")));
 }
 
@@ -158,7 +160,7 @@ TEST(KeysTogether, SidesAreApartFromTheStartAndWithinTheBox) {
   };
   EXPECT_THAT(
       said("place = 10.0, motion = { velocity = [-0.5, 0.0] }", "place = 11.0, motion = { velocity = [0.5, 0.0] }"),
-      HasSubstr("brings the left and right sides to 1 of each other"));
+      HasSubstr("brings the left and right sides within 1 of each other"));
   EXPECT_THAT(said("motion = { velocity = [3.0, 0.0] }", "kind = \"wall\""),
               HasSubstr("box.left.motion: brings the left side out of the box before run.t_end = 10"));
   EXPECT_THAT(said("motion = { vibrate = [-1.0, 0.0], period = 1.0 }", "kind = \"wall\""), IsEmpty())
@@ -168,13 +170,13 @@ TEST(KeysTogether, SidesAreApartFromTheStartAndWithinTheBox) {
 TEST(KeysTogether, WallsHaveALengthAndSinksNoRestitution) {
   const std::string wall = "[[walls]]\nfrom = [12, 2]\nto = [14, 8]\n";
   EXPECT_THAT(complaint(scene_with("", "", "", wall + "kind = \"sink\"\nrestitution = 0.5\n")),
-              HasSubstr("walls.0.restitution: given beside kind = \"sink\""));
+              HasSubstr("walls.0.restitution: cannot be used with kind = \"sink\""));
   EXPECT_THAT(complaint(scene_with("", "", "", replaced(wall, "[14, 8]", "[12, 2]"))),
-              HasSubstr("walls.0.to: comes to [12, 2] twice in a row"));
+              HasSubstr("walls.0.to: has the point [12, 2] twice in a row"));
   EXPECT_THAT(complaint(scene_with("", "", "", "[[walls]]\npoints = [[12, 2], [14, 8], [14, 8]]\n")),
-              HasSubstr("walls.0.points: comes to [14, 8] twice in a row"));
+              HasSubstr("walls.0.points: has the point [14, 8] twice in a row"));
   EXPECT_THAT(complaint(scene_with("", "", "", "[[walls]]\npoints = [[12, 2]]\n")),
-              HasSubstr("walls.0.points: has 1 of them; expected two or more"));
+              HasSubstr("walls.0.points: is a list of 1; expected two points or more"));
   EXPECT_THAT(complaint(scene_with("", "", "", wall + "motion = { velocity = [1e61, 0.0] }\n")),
               HasSubstr("walls.0.motion.velocity: is [1e+61, 0]; expected a speed"));
   // The square of such a length is 0; a disk that met such a wall once left with half its energy.
@@ -243,10 +245,10 @@ TEST(KeysTogether, BrownianDisksAndSinks) {
   const std::string run = "t_end = 10.0\ndt = 0.01\n";
   EXPECT_THAT(
       complaint(scene_with("", brownian, "", "[[walls]]\nfrom = [12, 2]\nto = [14, 8]\nkind = \"sink\"\n", run)),
-      HasSubstr("walls.0.kind: a sink within the box beside Brownian motion"));
+      HasSubstr("walls.0.kind: a sink inside the box cannot be used with Brownian motion"));
   const std::string source = "[[sources]]\nside = \"left\"\nrate = 1.0\nradius = 1.0\nmass = 2.0\n";
   EXPECT_THAT(complaint(scene_with("left = \"sink\"\n", brownian, "", source, run)),
-              HasSubstr("sources.0.side: left is a sink, which takes Brownian disks"));
+              HasSubstr("sources.0.side: left is a sink, which would remove Brownian disks"));
   EXPECT_THAT(complaint(scene_with("left = \"sink\"\n", brownian + "accumulate = true\n", "", source, run)), IsEmpty());
 }
 
@@ -297,7 +299,7 @@ TEST(KeysTogether, SidesThatComeToADiameterInDecimalsLeaveADiskRoom) {
                     speed));
   };
   EXPECT_THAT(with_speed("0.1"), IsEmpty());
-  EXPECT_THAT(with_speed("0.1000001"), HasSubstr("brings the left and right sides to 0.2 of each other"));
+  EXPECT_THAT(with_speed("0.1000001"), HasSubstr("brings the left and right sides within 0.2 of each other"));
 }
 
 // A side and a wall that both move steadily: the side starts behind the wall and is faster.
@@ -307,7 +309,7 @@ TEST(KeysTogether, ASideMayNotOvertakeAWall) {
                                 "[[walls]]\nfrom = [11, 2]\nto = [11, 8]\nmotion = { velocity = [0.5, 0.0] }\n"));
   };
   EXPECT_THAT(said("1.55"), Not(HasSubstr("walls.0")));
-  EXPECT_THAT(said("1.7"), HasSubstr("walls.0.motion: the left side comes into the room that it moves through"));
+  EXPECT_THAT(said("1.7"), HasSubstr("walls.0.motion: the left side enters the path of this wall"));
 }
 
 // If both vibrate in phase they may be in the same places at different times; they are closest at a quarter or at three
@@ -319,7 +321,7 @@ TEST(KeysTogether, ASideAndAWallMaySwingTogether) {
                                             "0.0], period = {1} }}\n",
                                             x, period)));
   };
-  const auto swept = HasSubstr("walls.0.motion: the left side comes into the room that it moves through");
+  const auto swept = HasSubstr("walls.0.motion: the left side enters the path of this wall");
   EXPECT_THAT(said("6.0", "2.0"), Not(HasSubstr("walls.0")));
   EXPECT_THAT(said("4.5", "2.0"), swept) << "the wall is at 0.5 when the side is at 1";
   EXPECT_THAT(said("6.0", "3.0"), swept);
@@ -344,10 +346,10 @@ TEST(KeysTogether, ASideRunsIntoTheNearerEndOfAWall) {
   };
   const char* const right = "right = { motion = { velocity = [-2.5, 0.0] } }";  // as far as 12.5
   EXPECT_THAT(said(right, "[10, 4]", "[12, 4]"), IsEmpty());
-  EXPECT_THAT(said(right, "[10, 4]", "[14, 4]"), HasSubstr("walls.0: the right side runs into it at t = 2.4"));
+  EXPECT_THAT(said(right, "[10, 4]", "[14, 4]"), HasSubstr("walls.0: the right side hits this wall at t = 2.4"));
   const char* const left = "left = { motion = { velocity = [0.1, 0.0] } }";  // as far as 3 * 0.1, which is above 0.3
   EXPECT_THAT(said(left, "[0.3, 4]", "[0.3, 6]"), IsEmpty());
-  EXPECT_THAT(said(left, "[0.29, 4]", "[0.29, 6]"), HasSubstr("walls.0: the left side runs into it"));
+  EXPECT_THAT(said(left, "[0.29, 4]", "[0.29, 6]"), HasSubstr("walls.0: the left side hits this wall"));
 }
 
 // A side may come over a source's region as long as there is room in it for a centre, a radius away from the side.
@@ -357,8 +359,8 @@ TEST(KeysTogether, ASideLeavesASourceRoom) {
                                 "[[sources]]\nregion = [6, 4, 12, 6]\nrate = 1.0\nradius = 1.0\nmass = 2.0\n"));
   };
   EXPECT_THAT(said("1.05"), IsEmpty());
-  EXPECT_THAT(said("1.15"), HasSubstr("sources.0.region: the left side leaves no place in it for the centre of a disk "
-                                      "of radius 1 from t = 9.56"));
+  EXPECT_THAT(said("1.15"), HasSubstr("sources.0.region: the left side leaves no place in this region for the centre "
+                                      "of a disk of radius 1 from t = 9.56"));
 }
 
 // Each group draws its radii by the ids of its disks, which go on from those of the groups before.

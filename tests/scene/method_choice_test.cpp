@@ -88,7 +88,7 @@ TEST(MethodChoice, TheCheapestOfThePossibleIsTaken) {
       if (choice.best >= 0) {
         EXPECT_TRUE(choice.offers.at(static_cast<std::size_t>(choice.best)).possible);
       } else {
-        EXPECT_THAT(choice.why, HasSubstr("out of reach"));
+        EXPECT_THAT(choice.why, HasSubstr("no method reaches it"));
       }
       for (const MethodOffer& offer : choice.offers) {
         if (!offer.possible) continue;
@@ -165,7 +165,7 @@ TEST(MethodChoice, ExactIsRefusedWhereCollapseIsToBeExpected) {
         const MethodChoice choice = choose_method(scene, accuracy);
         EXPECT_FALSE(exact_of(choice).possible);
         EXPECT_NE(choice.best, 1);
-        EXPECT_THAT(exact_of(choice).why, HasSubstr("physics.collapse would allow it"));
+        EXPECT_THAT(exact_of(choice).why, HasSubstr("physics.collapse makes it possible"));
       }
     }
   }
@@ -403,9 +403,9 @@ TEST(MethodAuto, WhatCannotBeChosenIsAnError) {
   EXPECT_THAT(complaint(automatic("accuracy = 0.0")), HasSubstr("run.accuracy: is 0"));
   EXPECT_THAT(complaint(automatic("accuracy = 0.5")), HasSubstr("run.accuracy: is 0.5; expected at most 0.1"));
   const std::string brownian = replaced(automatic("accuracy = 1e-7"), "restitution = 0.5", "diffusion = 1.0");
-  EXPECT_THAT(complaint(brownian), HasSubstr("run.accuracy: 1e-07 cannot be had"));
+  EXPECT_THAT(complaint(brownian), HasSubstr("run.accuracy: is 1e-07: no method reaches it: pairwise: dt = "));
   EXPECT_THAT(complaint(replaced(brownian, "diffusion = 1.0", "diffusion = 1.0\naccumulate = true")),
-              HasSubstr("name a method and its dt"));
+              HasSubstr("state a method and its dt"));
 }
 
 }  // namespace

@@ -32,11 +32,10 @@ constexpr const char* both =
 
 TEST(PressWarnings, TellWhenTheRoomIsTooSmall) {
   EXPECT_THAT(press_warnings(scene_with(slow)), IsEmpty());
-  EXPECT_THAT(
-      press_warnings(scene_with(far)),
-      ElementsAre("gas.toml: box: the sides that move leave the disks, which need a room of 138.6 at least, less "
-                  "than that by t = 6.15: no method gets there, and exact is ever slower on the way; move the "
-                  "sides less far, or end the run sooner"));
+  EXPECT_THAT(press_warnings(scene_with(far)),
+              ElementsAre("gas.toml: box: the disks need an area of at least 138.6, and the moving sides leave less "
+                          "than that from t = 6.15 on: no method gets there, and exact becomes slower and slower "
+                          "before; move the sides less far, or end the run sooner"));
   EXPECT_THAT(press_warnings(scene_with(far, "1.0", "", "6.1")), IsEmpty());
   EXPECT_THAT(press_warnings(scene_with(both)), testing::SizeIs(1));
   EXPECT_THAT(press_warnings(scene_with(far, "0.5")), IsEmpty());
@@ -44,14 +43,14 @@ TEST(PressWarnings, TellWhenTheRoomIsTooSmall) {
       << "120";
   const char* const fixed = "[[disks]]\ncount = 1\npositions = [[2, 2]]\nradius = 1.0\nfixed = true\n";
   EXPECT_THAT(press_warnings(scene_with(slow, "1.0", fixed)), IsEmpty()) << "obstacles do not count";
-  EXPECT_THAT(scene_warnings(scene_with(far)), testing::Contains(HasSubstr("less than that by t = 6.15")));
+  EXPECT_THAT(scene_warnings(scene_with(far)), testing::Contains(HasSubstr("less than that from t = 6.15")));
 }
 
 // For disks of several sizes only their own area is a sure limit: it is between 0.98^2 and 1 times 40 pi, 125.7, which
 // is left at t = 7.43 or later.
 TEST(PressWarnings, DisksOfSeveralSizesMayFillMore) {
   const auto found = press_warnings(scene_with(far, "{ uniform = [0.98, 1.0] }"));
-  EXPECT_THAT(found, ElementsAre(HasSubstr("less than that by t = 7.")));
+  EXPECT_THAT(found, ElementsAre(HasSubstr("less than that from t = 7.")));
 }
 
 // The largest inset of a vibration counts, 7, which leaves 130.

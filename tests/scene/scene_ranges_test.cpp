@@ -38,9 +38,9 @@ TEST(Range, OfEachNumber) {
   EXPECT_THAT(with("mass = 2.0", "mass = [1, 1, 1e51]"), StartsWith("gas.toml:18: disks.0.mass.2: is 1e+51"));
   EXPECT_THAT(
       with("mass = 2.0", "mass = { uniform = [1e307, 1e308] }"),
-      AllOf(StartsWith("gas.toml:18: disks.0.mass: comes out between"), HasSubstr("expected a mass from 1e-50")));
+      AllOf(StartsWith("gas.toml:18: disks.0.mass: gets values between"), HasSubstr("expected a mass from 1e-50")));
   EXPECT_THAT(with("mass = 2.0", "mass = { from_radius = 1e60 }"),
-              StartsWith("gas.toml:18: disks.0.mass: comes out as 3.14159"));
+              StartsWith("gas.toml:18: disks.0.mass: gets the value 3.14159"));
   EXPECT_THAT(with("t_end = 10.0", "t_end = 1e155"), StartsWith("gas.toml:23: run.t_end: is 1e+155; expected a time"));
   EXPECT_THAT(with("dt = 0.01", "dt = 1e280"), StartsWith("gas.toml:22: run.dt: is 1e+280; expected a time"));
   EXPECT_THAT(with("restitution = 0.5", "gravity = 1e-91"),
@@ -68,9 +68,9 @@ TEST(Range, OfEachNumber) {
     return "";
   };
   EXPECT_THAT(with_frame("radius = 1.0", "radius = { frame = \"out\" }"),
-              HasSubstr("radius: comes out between -1 and 1;"));
+              HasSubstr("radius: gets values between -1 and 1;"));
   EXPECT_THAT(with_frame("mass = 2.0", "mass = { frame = \"out\" }"),
-              HasSubstr("mass: comes out between 1 and 1e+60;"));
+              HasSubstr("mass: gets values between 1 and 1e+60;"));
   EXPECT_EQ(with("t_end = 10.0", "t_end = 0"), "");
   EXPECT_EQ(with("{ maxwell = 1.0 }", "[[0, 5e-324], [-0.0, 0], [1e-200, 0]]"), "") << "no speed is too small";
 }
@@ -97,7 +97,8 @@ TEST(Range, OfSpinsFromAFrameWithoutDisks) {
     parse_scene(text, "gas.toml", "", {}, [](const FrameAsked&) { return SceneFrame{}; });
     ADD_FAILURE() << "read";
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "gas.toml:19: disks.0.spin: has 0 entries for count = 3; expected one entry a disk");
+    EXPECT_STREQ(error.what(),
+                 "gas.toml:19: disks.0.spin: has 0 entries for count = 3; expected one entry for each disk");
   }
 }
 
@@ -107,26 +108,27 @@ TEST(Range, OfZeroHasNoSign) {
 }
 
 TEST(Range, OfNumbersAgainstEachOther) {
-  EXPECT_EQ(
-      with("dt = 0.01", "dt = 1e-20"),
-      "gas.toml:22: run.dt: is 1e-20: 1e+21 steps until run.t_end = 10; expected at most 2^53 = 9.0072e+15 of them");
+  EXPECT_EQ(with("dt = 0.01", "dt = 1e-20"),
+            "gas.toml:22: run.dt: is 1e-20, which makes 1e+21 steps until run.t_end = 10; expected at most 2^53 = "
+            "9.0072e+15");
   // A thermostat without dt kicks at every run.dt, in exact, too.
   const std::string bath = "thermostat = { kind = \"andersen\", temperature = 1.0, rate = 0.5 }";
   const std::string kicked = replaced(replaced(sound_scene, "restitution = 0.5", bath), "pairwise", "exact");
-  EXPECT_THAT(complaint(replaced(kicked, "dt = 0.01", "dt = 1e-20")), HasSubstr("run.dt: is 1e-20: 1e+21 kicks until"));
+  EXPECT_THAT(complaint(replaced(kicked, "dt = 0.01", "dt = 1e-20")),
+              HasSubstr("run.dt: is 1e-20, which makes 1e+21 kicks until"));
   EXPECT_THAT(with("[run]", "[output]\nevery = 1e-29\n[run]"),
-              HasSubstr("21: output.every: is 1e-29: 1e+30 frames until"));
+              HasSubstr("21: output.every: is 1e-29, which makes 1e+30 frames until"));
   EXPECT_THAT(with("[run]", "[analysis]\nwhat = [\"speeds\"]\nevery = 1e-29\n[run]"),
-              HasSubstr("22: analysis.every: is 1e-29: 1e+30 samples until"));
+              HasSubstr("22: analysis.every: is 1e-29, which makes 1e+30 samples until"));
   // The half periods of a vibration are counted in doubles, which must be exact integers.
   for (const char* shape : {"parabola", "sine"}) {
     const std::string motion =
         fmt::format("motion = {{ vibrate = [0, 1e-29], period = 1e-28, shape = \"{}\" }}", shape);
-    EXPECT_THAT(
-        with("[physics]", "bottom = { " + motion + " }\n[physics]"),
-        HasSubstr("box.bottom.motion.period: is 1e-28: 2e+29 half periods until run.t_end = 10; expected at most"));
+    EXPECT_THAT(with("[physics]", "bottom = { " + motion + " }\n[physics]"),
+                HasSubstr("box.bottom.motion.period: is 1e-28, which makes 2e+29 half periods until run.t_end = 10; "
+                          "expected at most"));
     EXPECT_THAT(with("[run]", "[[walls]]\nfrom = [1, 0.5]\nto = [2, 0.5]\n" + motion + "\n[run]"),
-                HasSubstr("walls.0.motion.period: is 1e-28: 2e+29 half periods"));
+                HasSubstr("walls.0.motion.period: is 1e-28, which makes 2e+29 half periods"));
     // With 2^53 half periods the end of the last one cannot be represented.
     const std::string many =
         fmt::format("motion = {{ vibrate = [0, 1e-17], period = {}, shape = \"{}\" }}", 20.0 * 0x1p-53, shape);
@@ -158,7 +160,7 @@ TEST(Range, OfSources) {
               StartsWith("gas.toml:23: sources.0.rate: is 1e+19: 1e+20 disks are due until run.t_end = 10; "
                          "expected at most 2^50"));
   EXPECT_EQ(source("region = [1, 1, 9, 9]\nradius = 0.1\nrate = 1e14\nlimit = 3"), "");
-  constexpr std::string_view nowhere = "sources.0.region: is no place for the centre of a disk of radius 0.5";
+  constexpr std::string_view nowhere = "sources.0.region: has no place for the centre of a disk of radius 0.5";
   EXPECT_THAT(source("region = [0, 0, 0.4, 10]\nradius = 0.5\nrate = 1"), HasSubstr(std::string(nowhere)));
   EXPECT_THAT(source("region = [0, 0, 0.5, 10]\nradius = 0.5\nrate = 1"), HasSubstr(std::string(nowhere)));
   EXPECT_THAT(source("region = [4, 9.6, 6, 10]\nradius = { uniform = [0.1, 0.5] }\nrate = 1"),
@@ -173,14 +175,15 @@ TEST_F(RangeOnTheCommandLine, IsNamedByTheOption) {
   for (const std::string command : {"run", "check"}) {
     expect_error("$C " + command + " small.toml --dt 1e-200", 2,
                  "--dt: is 1e-200; expected a time from 1e-30 to 1e+30");
-    expect_error("$C " + command + " small.toml --dt 1e-20", 2, "--dt: is 1e-20: 1e+20 steps until run.t_end = 1");
+    expect_error("$C " + command + " small.toml --dt 1e-20", 2,
+                 "--dt: is 1e-20, which makes 1e+20 steps until run.t_end = 1");
     expect_error("$C " + command + " small.toml --t-end 1e155", 2, "--t-end: is 1e+155; expected a time");
     expect_error("$C " + command + " small.toml --set box.width=1e300", 2,
                  "--set box.width: is 1e+300; expected a length");
   }
   ASSERT_EQ(carom("run small.toml -o out --quiet --set output.checkpoint=3600").status, 0);
   expect_error("$C resume out --t-end 1e155", 2, "--t-end: is 1e+155; expected a time");
-  expect_error("$C resume out --t-end 1e20", 2, "run.dt: is 0.01: 1e+22 steps until run.t_end = 1e+20");
+  expect_error("$C resume out --t-end 1e20", 2, "run.dt: is 0.01, which makes 1e+22 steps until run.t_end = 1e+20");
 }
 
 TEST(Title, IsOneThatFitsOnALine) {

@@ -109,7 +109,7 @@ TEST(SizeDistributions, BadOnesAreNamedByLineAndKey) {
   EXPECT_THAT(with_radius("{ choice = [] }"), HasSubstr("radius.choice: is empty; expected"));
   EXPECT_THAT(with_radius("{ choice = [1, 0] }"), HasSubstr("radius.choice.1: is 0; expected"));
   EXPECT_THAT(with_radius("{ choice = [1, 2], weights = [1] }"),
-              HasSubstr("radius.weights: has 1 number for 2 to choose from; expected one each"));
+              HasSubstr("radius.weights: has 1 number for 2 values of choice; expected one for each"));
   EXPECT_THAT(with_radius("{ choice = [1, 2], weights = [1, -1] }"), HasSubstr("radius.weights.1: is -1; expected"));
   EXPECT_THAT(with_radius("{ choice = [1, 2], weights = [1, 2e9] }"), HasSubstr("radius.weights.1: is 2000000000"));
   EXPECT_THAT(with_radius("{ choice = [1, 2], weights = [0, 0] }"), HasSubstr("radius.weights: are all 0; expected"));

@@ -26,8 +26,8 @@ constexpr const char* along_top = "points = [[4, 10], [9, 10]]";
 TEST(WallWarnings, AWallThatDiffersFromTheSideBehindIt) {
   EXPECT_THAT(
       warnings(std::string(along_top) + "\nrestitution = 0.25"),
-      ElementsAre("gas.toml:20: walls.0: lies along the top side, and a disk that comes to both meets either, as "
-                  "rounding has it; put it before the side, by a thousandth of a radius"));
+      ElementsAre("gas.toml:20: walls.0: lies along the top side, and a disk that reaches both collides with either of "
+                  "them, as rounding decides; place the wall inside the box, a thousandth of a radius from the side"));
   for (const auto& [points, side] : {std::pair("[[0, 2], [0, 4]]", "left"), std::pair("[[20, 2], [20, 4]]", "right"),
                                      std::pair("[[1, 1], [2, 0], [4, 0]]", "bottom")}) {
     EXPECT_THAT(warnings(fmt::format("points = {}\nrestitution = 0.25", points)),
@@ -38,8 +38,8 @@ TEST(WallWarnings, AWallThatDiffersFromTheSideBehindIt) {
   EXPECT_THAT(warnings(along_top, {{"box.top", "{ restitution = 0.5 }"}}), testing::SizeIs(1));
   EXPECT_THAT(
       warnings(std::string(along_top) + "\nrestitution = 0.25", {{"run.method", "rollback"}, {"run.dt", "0.1"}}),
-      ElementsAre(testing::EndsWith("meets the side; put it before the side, by a thousandth of a radius, and "
-                                    "take another method")));
+      ElementsAre(testing::EndsWith("collides with the side; place the wall inside the box, a thousandth of a radius "
+                                    "from the side, and use another method")));
 }
 
 // The message once began with "gas.toml:0".
@@ -72,10 +72,9 @@ TEST(WallWarnings, ABeltUnderAPileTakesNothingAlong) {
     return warnings(wall, all);
   };
   constexpr const char* belt = "points = [[4, 2], [9, 2]]\nmotion = { velocity = [0.1, 0] }";
-  EXPECT_THAT(
-      with(belt, {}),
-      ElementsAre("gas.toml:20: walls.0: moves along itself, and takes along what hits it, but not what rests on "
-                  "it: method pairwise supports a pile without friction"));
+  EXPECT_THAT(with(belt, {}),
+              ElementsAre("gas.toml:20: walls.0: moves along itself, and drags along disks that hit it, but not disks "
+                          "that rest on it: method pairwise supports a pile without friction"));
   EXPECT_THAT(with("points = [[4, 2], [9, 3]]\nmotion = { vibrate = [0.1, 0], period = 1 }", {}), testing::SizeIs(1));
   EXPECT_THAT(with("points = [[4, 2], [9, 3]]\nmotion = { vibrate = [0, 0.1], period = 1 }", {}), testing::SizeIs(1));
   EXPECT_THAT(with("points = [[4, 2], [9, 2]]\nmotion = { vibrate = [0, 0.1], period = 1 }", {}), IsEmpty()) << "lifts";

@@ -334,9 +334,8 @@ TEST(Growth, RefusesDisksThatFillTheBox) {
   };
   EXPECT_THAT(
       said("width = 1.0\nheight = 11.0", "0.5"),
-      HasSubstr("disks.1.positions: \"growth\" comes to no end where a disk fills the box from wall to wall: disk "
-                "3 has the diameter 1, and the box is 1 wide; expected a larger box, smaller disks, or a "
-                "lattice"));
+      HasSubstr("disks.1.positions: \"growth\" never ends if a disk fills the box from wall to wall: disk 3 has the "
+                "diameter 1, and the box is 1 wide; expected a larger box, smaller disks, or a lattice"));
   EXPECT_THAT(said("width = 11.0\nheight = 1.0", "0.5"), HasSubstr("and the box is 1 high; "));
   EXPECT_EQ(said("width = 1.000001\nheight = 11.0", "0.5"), "");
   EXPECT_EQ(said("width = 11.0\nheight = 2.0\nbottom = \"periodic\"\ntop = \"periodic\"", "0.5"), "");
@@ -354,7 +353,7 @@ TEST(Growth, JamsWhereTheTimeOfAFlightStandsStill) {
     EXPECT_EQ(state.time, 0.0);
     EXPECT_EQ(state.stall.frames, 0U);
     EXPECT_EQ(state.stall.since, 0.0);
-    if (++flights == 3) throw PhysicsError("time all but stands still");
+    if (++flights == 3) throw PhysicsError("time almost stands still");
     state = plain.fly(flight, std::move(state), watch);
     state.stall = {100, 7.0};
     return state;
@@ -373,14 +372,14 @@ TEST(Growth, JamsWhereTheTimeOfAFlightStandsStill) {
 TEST(Growth, RefusesWhatItCannotDo) {
   const std::string other = "[[disks]]\ncount = 3\npositions = \"random\"\nradius = 1\nmass = 1\n";
   EXPECT_THAT(test::complaint(text_of("width = 50\nheight = 50", group(3, "1") + other)),
-              HasSubstr("disks.1.positions: beside \"growth\" of disks.0"));
+              HasSubstr("disks.1.positions: cannot be used with \"growth\" of disks.0"));
   const std::string fixed = "[[disks]]\nfixed = true\ncount = 3\npositions = \"growth\"\nradius = 1\n";
   EXPECT_THAT(test::complaint(text_of("width = 50\nheight = 50", group(3, "1") + fixed)),
-              HasSubstr("disks.1.positions: is \"growth\" of fixed disks"));
+              HasSubstr("disks.1.positions: is \"growth\" for fixed disks"));
   EXPECT_THAT(test::complaint(text_of("width = 50\nheight = 50", fixed + other)),
-              HasSubstr("disks.0.positions: is \"growth\" of fixed disks"));
+              HasSubstr("disks.0.positions: is \"growth\" for fixed disks"));
   EXPECT_THAT(test::complaint(text_of("width = 50\nheight = 50", other, "[growth]\nslowness = 2\n")),
-              HasSubstr("growth: nothing grows"));
+              HasSubstr("growth: no group grows"));
   EXPECT_THAT(test::complaint(text_of("width = 50\nheight = 50", group(3, "1"), "[growth]\nslowness = 0\n")),
               HasSubstr("growth.slowness: is 0"));
   EXPECT_THAT(test::complaint(text_of("width = 50\nheight = 50", group(3, "1"), "[growth]\nslowness = 1e300\n")),

@@ -128,7 +128,7 @@ TEST(StartRegion, NoneReachesBeyondASideThatMoves) {
   EXPECT_EQ(said("[6.0, 4.0, 35.0, 27.0]"), "");
   for (const char* region : {"[5.9, 4.0, 35.0, 27.0]", "[6.0, 3.9, 35.0, 27.0]", "[6.0, 4.0, 35.1, 27.0]",
                              "[6.0, 4.0, 35.0, 27.1]", "{ circle = [20.0, 20.0, 7.1] }"}) {
-    EXPECT_THAT(said(region), HasSubstr("disks.0.region: reaches beyond a side that moves")) << region;
+    EXPECT_THAT(said(region), HasSubstr("disks.0.region: reaches beyond a moving side")) << region;
   }
 }
 
@@ -142,7 +142,7 @@ TEST(StartRegion, SidesThatVibrateTogetherAreAsFarApartAsTheyComeNear) {
                        right + ", 0.0], period = 1.0 } }\n"),
         "width = 40.0", "width = 10.5");
   };
-  EXPECT_THAT(complaint(scene("-3.0")), HasSubstr("brings the left and right sides to 0.5 of each other"));
+  EXPECT_THAT(complaint(scene("-3.0")), HasSubstr("brings the left and right sides within 0.5 of each other"));
   EXPECT_THAT(complaint(scene("3.0")), testing::Not(HasSubstr("brings the left and right")));
 }
 
@@ -296,9 +296,10 @@ TEST(StartRegion, BadOnesAreNamedByLineAndKey) {
   EXPECT_THAT(region("random", "{ circle = [5, 5] }"), HasSubstr("disks.0.region.circle: has 2 numbers; expected"));
   EXPECT_THAT(region("random", "{ circle = [5, 5, 0] }"), HasSubstr("disks.0.region.circle: has radius 0; expected"));
   EXPECT_THAT(region("random", "{ circl = [5, 5, 3] }"), HasSubstr("disks.0.region.circl: unknown key"));
-  EXPECT_THAT(region("growth", "[2, 3, 20, 9]"), HasSubstr("disks.0.region: beside \"growth\"; expected"));
+  EXPECT_THAT(region("growth", "[2, 3, 20, 9]"),
+              HasSubstr("disks.0.region: cannot be used with positions = \"growth\"; expected"));
   EXPECT_THAT(complaint(replaced(scene_with(group(1, "random", "region = [2, 3, 20, 9]\n")), "\"random\"", "[[3, 4]]")),
-              HasSubstr("disks.0.region: beside positions that are given; expected"));
+              HasSubstr("disks.0.region: cannot be used with a list of positions; expected"));
   EXPECT_THAT(region("random", "[2, 3, 7, 8]"), HasSubstr("disks.0.positions: \"random\" finds no room for disk"));
   EXPECT_THAT(region("random", "[2, 3, 7, 8]"), HasSubstr("in its region after"));
   // k disks of radius 1/2 in a circle of radius 3 have the packing fraction k / 36.
