@@ -35,14 +35,14 @@ constexpr double brownian_travel = 0.226, brownian_flight = 4.0, brownian_length
 void check_kind(const Scene& scene) {
   const Count disks = disks_that_move(scene);
   if (!scene.sources.empty()) refuse(scene, "sources add disks", "expected the same disks from start to end");
-  if (has_sinks(scene)) refuse(scene, "sinks take disks away", "expected the same disks from start to end");
+  if (has_sinks(scene)) refuse(scene, "sinks remove disks", "expected the same disks from start to end");
   if (disks < 2) refuse(scene, "nothing collides", "expected two disks or more");
   if (disks > most_own_disks) {
     refuse(scene, fmt::format("{} disks are too many to compare path by path", disks),
            fmt::format("expected {} or fewer, such as a smaller box of the same density", most_own_disks));
   }
   if (scene.physics.accumulate) {
-    refuse(scene, "with physics.accumulate the step is part of the physics", "expected motion that all methods share");
+    refuse(scene, "with physics.accumulate the step is part of the physics", "expected a scene without it");
   }
   if (!(scene.run.t_end > 0.0)) refuse(scene, "t_end is 0", "expected a run of some length");
 }

@@ -56,7 +56,7 @@ std::string cheapest_text(const chart::SceneResult& result, double error) {
       at = &p;
     }
   }
-  if (best == nullptr) return fmt::format("  for a path error of {:g}: none of these steps\n", error);
+  if (best == nullptr) return fmt::format("  for a path error of {:g}: none of these steps is short enough\n", error);
   return fmt::format("  for a path error of {:g}: {}{}\n", error, name_of(best->method),
                      at->dt > 0.0 ? fmt::format(", dt = {:.3g}", at->dt) : "");
 }

@@ -305,8 +305,8 @@ void add_smooth_drives(const Scene& scene, std::vector<std::string>& troubles) {
   for (std::size_t k = 0; k < scene.walls.size(); ++k) {
     if (!runs_round(scene.walls[k], scene.box)) continue;
     troubles.push_back(
-        fmt::format("walls.{} moves along itself and is smooth, which does nothing to disks: they are dragged along "
-                    "with physics.roughness and box.wall_roughness",
+        fmt::format("walls.{} moves along itself but is smooth, so it does not drag disks along: that needs "
+                    "physics.roughness and box.wall_roughness",
                     k));
   }
 }
@@ -315,9 +315,8 @@ void add_collapse(const CollapseForesight& collapse, std::vector<std::string>& t
   if (!collapse.expected) return;
   const std::string when = collapse.from ? fmt::format("about t = {:.2g}", *collapse.from) : "some time";
   troubles.push_back(fmt::format(
-      "inelastic collapse is to be expected from {} on, infinitely many collisions in finite time: the run would "
-      "stop with status 3; take --method pairwise, or give physics.collapse = {{ model = \"tc\", contact_time = ... "
-      "}}",
+      "inelastic collapse, infinitely many collisions in finite time, is expected from {} on: the run would stop with "
+      "status 3; use --method pairwise, or set physics.collapse = {{ model = \"tc\", contact_time = ... }}",
       when));
 }
 
@@ -338,23 +337,22 @@ void add_long_step(const Scene& scene, const StepForesight& steps, std::vector<s
   if (!uses_dt(scene) || !(dt > safe)) return;
   const char* const when =
       scene.run.method == Method::exact ? " of disks from sources" : " at the speeds that disks may reach";
-  troubles.push_back(fmt::format("dt = {:g} is longer than the safe step{}: {}; take dt <= {:.2g}", dt,
+  troubles.push_back(fmt::format("dt = {:g} is longer than the safe step{}: {}; use dt <= {:.2g}", dt,
                                  dt <= steps.at_start ? when : "", outcome_of_long_step(scene, steps), safe));
 }
 
 void add_fall_in_pile(const Scene& scene, const StepForesight& steps, std::vector<std::string>& troubles) {
   if (scene.run.method == Method::exact || !(scene.run.dt > steps.resting)) return;
-  troubles.push_back(
-      fmt::format("in a pile a disk falls by g dt^2 before it is held, more than {:g} % of the smallest radius: take "
-                  "dt <= {:.2g}",
-                  100.0 * largest_overlap, steps.resting));
+  troubles.push_back(fmt::format(
+      "in a pile a disk falls by g dt^2 before it is held, more than {:g} % of the smallest radius: use dt <= {:.2g}",
+      100.0 * largest_overlap, steps.resting));
 }
 
 void add_full_box(const Scene& scene, const Population& population, std::vector<std::string>& troubles) {
   if (has_sinks(scene) || !(population.end > population.start && population.fill > source_fill)) return;
   troubles.push_back(
-      fmt::format("the sources would fill the box to a packing fraction of {:.2g}, and find no room beyond about "
-                  "{:g}: give a limit or a sink",
+      fmt::format("the sources would fill the box to a packing fraction of {:.2g}, but there is no room beyond about "
+                  "{:g}: set a limit, or add a sink",
                   population.fill, source_fill));
 }
 

@@ -193,12 +193,12 @@ void try_run(const Scene& scene, const EngineChoice& choice, State initial, Find
 
 // After the memory of one process has been measured, since all ranks are threads of this one.
 void try_ranks(const Scene& scene, const EngineChoice& choice, int ranks, bool tried, Findings& found) {
-  if (!tried) fail_input("--ranks", "the disks grow for too long to be tried", "expected no --ranks");
+  if (!tried) fail_input("--ranks", "the growth of the disks takes too long for a trial", "expected no --ranks");
   found.ranks = within_memory(scene, [&] { return foresee_ranks(scene, make_initial_state(choice, scene), ranks); });
   if (const SlabTraffic& tried_on = found.ranks->traffic; tried_on.lone_steps > 0) {
     found.troubles.push_back(
-        fmt::format("in {} of {} that were tried on {} ranks one of them ran all disks, as slabs were too thin, or too "
-                    "crowded; fewer ranks would do, or a higher box",
+        fmt::format("in {} of {} of a trial on {} ranks one of them ran all disks, as slabs were too thin or too "
+                    "crowded; use fewer ranks, or a higher box",
                     tried_on.lone_steps, counted(tried_on.steps, "step"), tried_on.ranks));
   }
   if (found.ranks->first_has_all) {

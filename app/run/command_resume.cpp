@@ -37,7 +37,7 @@ void warn_of_other_scene(const CheckpointPlace& place, const RunRecord& record) 
     if (text == record.scene_text || same()) return;
   } catch (const InputError&) {
   }
-  print_warning(fmt::format("{} has changed: the run goes on with the scene in its checkpoint", file.string()));
+  print_warning(fmt::format("{} has changed: the run continues with the scene in its checkpoint", file.string()));
 }
 
 // Sets the folder of the results: -o, or that of the run's files. A checkpoint saved by a program is among the

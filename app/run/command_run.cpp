@@ -34,7 +34,7 @@ void take_folder(const RunOptions& options, const Scene& scene, RunSettings& set
   if (*settings.folder != wanted) {
     const bool stopped = fs::exists(present_path(wanted, checkpoint_name)) && !fs::exists(wanted / "summary.json");
     note += fmt::format(" ({} holds another run; {})", wanted.string(),
-                        stopped ? fmt::format("carom resume {} goes on with that", shell_word(wanted.string()))
+                        stopped ? fmt::format("carom resume {} continues that run", shell_word(wanted.string()))
                                 : "--force replaces it");
   }
   print_note(note);

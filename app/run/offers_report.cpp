@@ -25,7 +25,7 @@ std::string offer_text(const MethodOffer& offer, bool best) {
 const char* averages_of(const Scene& scene, const MethodChoice& choice) {
   if (scene.physics.diffusion > 0.0) return "mean square displacement";
   // If disks come to rest, the number of their further collisions depends on the step: soft hits become load.
-  if (choice.scales.settles) return "energy lost; not collisions, of which a pile has as many as steps show";
+  if (choice.scales.settles) return "energy lost; not collisions, whose number in a pile depends on the steps";
   return disks_dissipate(scene) ? "collision rate, pressure, cooling rate" : "collision rate, pressure";
 }
 
@@ -39,12 +39,12 @@ std::string offers_text(const Scene& scene, double accuracy) {
     text += offer_text(choice.offers[k], static_cast<int>(k) == choice.best);
   }
   if (choice.offers.empty()) return text + fmt::format("  {}\n", choice.why);
-  if (choice.best < 0) return text + "  out of reach: ask for a larger error, or name a method and its dt\n";
+  if (choice.best < 0) return text + "  no method reaches it: use a larger error, or state a method and its dt\n";
   const MethodOffer& best = choice.offers[static_cast<std::size_t>(choice.best)];
   const std::string dt = best.dt > 0.0 ? fmt::format(" --dt {:g}", best.dt) : "";
   const std::string automatic =
       scene.box.shear.acts() ? "" : fmt::format(", or method = \"auto\", accuracy = {:g} in [run]", accuracy);
-  return text + fmt::format("  take it with --method {}{}{}\n", name_of(best.method), dt, automatic);
+  return text + fmt::format("  use it with --method {}{}{}\n", name_of(best.method), dt, automatic);
 }
 
 nlohmann::ordered_json offers_json(const Scene& scene, double accuracy) {

@@ -54,7 +54,7 @@ void view_results(const CarryOptions& options, const Scene& scene, const std::fi
 void check_view(const CarryOptions& options, const Scene& scene) {
   if (!options.view || scene.output.trajectory != TrajectoryFormat::none) return;
   fail_input("--view", "the scene writes no trajectory",
-             "expected one, as with --set 'output.trajectory=\"h5md\"' --set output.every=0.1");
+             "expected a trajectory, as with --set 'output.trajectory=\"h5md\"' --set output.every=0.1");
 }
 
 RunSettings settings_of(const CarryOptions& options) {
@@ -68,13 +68,13 @@ RunSettings settings_of(const CarryOptions& options) {
 int run_and_report(const CarryOptions& options, const Scene& scene, RunSettings settings,
                    std::optional<ResumeFrom> from, std::unique_ptr<SetupWatch> setup) {
   if (!options.quiet && options.threads.value_or(1) > settings.engine.threads) {
-    print_note(fmt::format("--threads {}: the reference runs on one", *options.threads));
+    print_note(fmt::format("--threads {}: the reference engine uses one thread", *options.threads));
   }
   const RunOutcome outcome = run_shown(options, scene, std::move(settings), std::move(from), std::move(setup));
   const Summary& summary = outcome.summary;
   const bool stopped = !outcome.stopped_by.empty();
   if (stopped) {
-    print_note(fmt::format("stopped by {} at t = {:g} of {:g}; go on with {}", outcome.stopped_by, summary.time,
+    print_note(fmt::format("stopped by {} at t = {:g} of {:g}; resume it with {}", outcome.stopped_by, summary.time,
                            scene.run.t_end, summary.resume_with));
   }
   if (options.json) {

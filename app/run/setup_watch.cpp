@@ -23,7 +23,8 @@ constexpr double short_cpu = 1.0, short_wall = 60.0;
 
 // Nothing has been written, and the thread that makes the state cannot be asked to stop, so the process ends here.
 [[noreturn]] void stop(std::string_view what) {
-  print_note(fmt::format("stopped by {} while the initial state was made; there is no checkpoint to go on from", what));
+  print_note(
+      fmt::format("stopped by {} while the initial state was made; there is no checkpoint to resume from", what));
   std::_Exit(stopped_early);
 }
 

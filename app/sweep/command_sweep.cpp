@@ -23,8 +23,8 @@ int command_sweep(const SweepOptions& options) {
     const bool slurm = options.emit == "slurm";
     const std::string file = (sweep.folder() / (slurm ? "sweep.sbatch" : "sweep.sh")).string();
     write_file(file, slurm ? slurm_script(sweep) : parallel_script(sweep));
-    print_note(fmt::format("{} of {} runs are left; {} {}, and then this command without --emit for the table", left,
-                           sweep.runs().size(), slurm ? "sbatch" : "sh", quoted_for_shell(file)));
+    print_note(fmt::format("{} of {} runs are left; run {} {}, and then this command without --emit for the table",
+                           left, sweep.runs().size(), slurm ? "sbatch" : "sh", quoted_for_shell(file)));
     print_out(fmt::format("{}\n", file));
     return 0;
   }
@@ -32,16 +32,17 @@ int command_sweep(const SweepOptions& options) {
   const SweepTableCount rows = sweep.write_table();
   const std::string table = (sweep.folder() / "sweep.csv").string();
   if (rows.warned > 0) {
-    print_warning(fmt::format("{} of {} runs warn of their method, see the column warnings and each summary.json",
-                              rows.warned, sweep.finished()));
+    print_warning(fmt::format(
+        "{} of {} runs have warnings about their method; see the column warnings, and summary.json of each run",
+        rows.warned, sweep.finished()));
   }
   if (rows.versions.size() > 1) {
     print_warning(fmt::format("the runs are of several versions of Carom, which may differ in the last bits: {}",
                               fmt::join(rows.versions, ", ")));
   }
   if (count.stopped) {
-    print_note(fmt::format("stopped by {} with {} of {} runs done; the same command goes on", stop_signal_name(),
-                           sweep.finished(), sweep.runs().size()));
+    print_note(fmt::format("stopped by {} with {} of {} runs done; the same command continues the sweep",
+                           stop_signal_name(), sweep.finished(), sweep.runs().size()));
     return 4;
   }
   print_out(fmt::format("{}\n", table));

@@ -62,7 +62,7 @@ bool is_of_fingerprint(const std::string& scene_text, std::size_t print) {
 
 std::string change_since(const std::string& scene_text, const Scene& now, const std::string& run) {
   const std::set<std::string> files = changed_files(parse_scene(scene_text, "scene.toml", ""), now);
-  if (files.empty()) return fmt::format("its run {} is of another scene", run);
+  if (files.empty()) return fmt::format("its run {} has another scene", run);
   return fmt::format("{} {} changed since run {} began", fmt::join(files, " and "), files.size() == 1 ? "has" : "have",
                      run);
 }

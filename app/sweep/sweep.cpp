@@ -109,7 +109,7 @@ Sweep::Complaint Sweep::go_on(const std::string& scene_text) {
   const std::string plan = plan_file().string();
   std::vector<SweepRun> runs = runs_;
   const std::string before = read_text_file(plan, plan);
-  Complaint against{take_names(before, scene_text, runs), "give it all of that and more"};
+  Complaint against{take_names(before, scene_text, runs), "give all its values and more"};
   if (against.what.empty()) against = against_runs(runs);
   if (!against.what.empty()) return against;
   runs_ = std::move(runs);
@@ -134,7 +134,7 @@ std::string Sweep::against(const SweepRun& run) const {
     const std::string then = scene_of_run(folder_of(run));
     return then.empty() || is_of_fingerprint(then, run.scene) ? "" : change_since(then, scene_of(run), run.name);
   } catch (const InputError& error) {
-    return fmt::format("its run {} cannot be told: {}", run.name, error.what());
+    return fmt::format("the scene of its run {} is unknown: {}", run.name, error.what());
   }
 }
 
@@ -229,7 +229,7 @@ std::string Sweep::last_words(const SweepRun& run, int status) const {
 std::string Sweep::close(const SweepRun& run, int status) const {
   constexpr int stopped_early = 4;
   const bool stopped = status == stopped_early || status == 128 + SIGTERM;  // the latter if it had not quite begun
-  if (stopped) return stop_wished() ? "" : "was stopped from outside; the same command goes on with it";
+  if (stopped) return stop_wished() ? "" : "was stopped from outside; the same command continues it";
   if (status != 0) return last_words(run, status);
   fs::remove(log_of(run));
   if (against(run).empty()) return "";
@@ -279,7 +279,7 @@ Json Sweep::summary_of(const SweepRun& run) const {
   std::ifstream file(folder_of(run) / "summary.json");
   Json summary = Json::parse(file, nullptr, false);
   if (!summary.is_object()) {
-    fail_input((folder_of(run) / "summary.json").string(), "is no JSON object",
+    fail_input((folder_of(run) / "summary.json").string(), "is not a JSON object",
                fmt::format("expected the summary of a run; {}", to_run_again(run)));
   }
   return summary;

@@ -61,7 +61,7 @@ T number_in(const std::string& text, const std::string& word) {
   const char* const end = word.data() + word.size();
   const auto result = std::from_chars(word.data(), end, value);
   if (result.ec != std::errc{} || result.ptr != end) {
-    fail_input("--over", fmt::format("{}: {} is no number", in_quotes(text), in_quotes(word)), expected);
+    fail_input("--over", fmt::format("{}: {} is not a number", in_quotes(text), in_quotes(word)), expected);
   }
   return value;
 }
@@ -79,7 +79,7 @@ std::vector<std::string> range_values(const std::string& text, const std::vector
   const int count = number_in<int>(text, parts[2]);
   if (!std::isfinite(from) || !std::isfinite(to - from) || count < 1 || count > most_values ||
       (count == 1 && from != to)) {
-    fail_input("--over", fmt::format("{} is no range", in_quotes(text)), expected);
+    fail_input("--over", fmt::format("{} is not a range", in_quotes(text)), expected);
   }
   std::vector<std::string> values;
   for (int k = 0; k < count; ++k) {
@@ -97,7 +97,7 @@ void check_number_of_runs(const std::vector<SweepAxis>& axes, std::uint64_t seed
   constexpr double most_runs = 1e6;
   const std::uint64_t beyond = std::numeric_limits<std::uint64_t>::max() - seed;  // number of seeds after the first
   if (static_cast<std::uint64_t>(seeds) - 1 > beyond) {
-    fail_input("--seeds", fmt::format("{} seeds from {} on go beyond 2^64 - 1", seeds, seed),
+    fail_input("--seeds", fmt::format("{} seeds from {} on exceed 2^64 - 1", seeds, seed),
                fmt::format("expected at most {}, or a smaller seed of the scene", beyond + 1));
   }
   double runs = seeds;
@@ -125,7 +125,7 @@ void check_values(const std::string& text, const std::vector<std::string>& value
     if (value.empty()) fail_input("--over", fmt::format("{} has an empty value", in_quotes(text)), expected);
     if (!seen.insert(plain(value)).second) {
       fail_input("--over", fmt::format("{} has the value {} twice", in_quotes(text), value),
-                 "expected values that differ, and --seeds N for several runs of one");
+                 "expected different values; --seeds N makes several runs of one");
     }
   }
 }
@@ -144,7 +144,7 @@ SweepAxis parse_sweep_axis(const std::string& text) {
   if (parts.size() == 3) {
     axis.values = range_values(text, parts);
   } else if (parts.size() > 1 && number_of(parts[0])) {
-    fail_input("--over", fmt::format("{} is no range", in_quotes(text)), expected);
+    fail_input("--over", fmt::format("{} is not a range", in_quotes(text)), expected);
   } else {
     axis.values = split_values(values, ',');
   }

@@ -53,7 +53,7 @@ PictureLook look_of(const RenderOptions& options, const std::optional<Scene>& sc
   }
   if (options.range) {
     const std::string complaint = complaint_of_range(look.colour, (*options.range)[0], (*options.range)[1]);
-    if (!complaint.empty()) fail_input("--range", "is out of place", complaint);
+    if (!complaint.empty()) fail_input("--range", "cannot be used", complaint);
     look.range = options.range;
   }
   if (options.size) {
@@ -82,7 +82,7 @@ struct WorkFolder {
     std::error_code error;
     fs::create_directories(held, error);
     if (!error && !lock.take(held)) {
-      fail_input(file.string(), "another carom render is making it now", "expected another file (-o)");
+      fail_input(file.string(), "another carom render is writing this file", "expected another file (-o)");
     }
     if (!error) fs::remove_all(path, error);  // left by one that was killed
     if (!error) fs::create_directory(path, error);
@@ -112,7 +112,7 @@ struct Target {
 void check_frames_free(const fs::path& frames, bool force) {
   if (!fs::exists(frames)) return;
   if (!holds_frames_only(frames)) {
-    fail_input(frames.string(), "is not a folder of frames and nothing else", "choose another folder with -o");
+    fail_input(frames.string(), "is not a folder that holds only frames", "choose another folder with -o");
   }
   if (force) return;
   fail_input(frames.string(), "exists already", "choose another folder with -o, or replace it with --force");
@@ -131,7 +131,7 @@ Target target_of(const RenderOptions& options, const Recording& recording) {
                "expected .mp4, .webm or .gif for a movie, .png or .svg for a picture");
   }
   if (target.movie && options.frame) {
-    fail_input("-o", fmt::format("{} is a movie, and --frame asks for a picture", in_quotes(target.file.string())),
+    fail_input("-o", fmt::format("{} is a movie, but --frame draws a picture", in_quotes(target.file.string())),
                "expected .png or .svg");
   }
   target.single_frames = target.movie && !finds_ffmpeg();

@@ -38,8 +38,8 @@ HttpAnswer found(const char* type, std::string body) {
 
 LiveRun::LiveRun(const fs::path& folder, const ViewSettings& settings) : folder_(folder), settings_(settings) {
   if (!is_being_written(folder)) {
-    fail_input("--live", fmt::format("no run is going on in {}", folder.string()),
-               "expected the folder of one; carom view plays a run that has ended");
+    fail_input("--live", fmt::format("there is no run in progress in {}", folder.string()),
+               "expected the folder of a run in progress; carom view without --live plays one that has ended");
   }
   TrajectoryFrame frame;
   for (bool last_look = false;; std::this_thread::sleep_for(between_looks)) {
@@ -55,7 +55,7 @@ LiveRun::LiveRun(const fs::path& folder, const ViewSettings& settings) : folder_
       }
     }
     if (reader_ && reader_->read(frame)) break;
-    if (last_look) fail_input("--live", "the run has ended without a frame", "expected one with a trajectory");
+    if (last_look) fail_input("--live", "the run has ended without a frame", "expected a run with a trajectory");
     last_look = !is_being_written(folder);
   }
   begin(frame);

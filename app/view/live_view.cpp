@@ -18,7 +18,7 @@ constexpr double farewell_s = 2.0;  // after the end, without a request: pages h
 }  // namespace
 
 int view_live(const ViewOptions& options) {
-  if (options.file) fail_input("-o", "is for a page that stays", "expected none with --live");
+  if (options.file) fail_input("-o", "cannot be used with --live, which writes no file", "expected one of the two");
   ViewSettings settings;
   if (options.max_size) settings.most_bytes = *options.max_size;
   if (!options.quiet) settings.warn = print_warning;
@@ -29,7 +29,7 @@ int view_live(const ViewOptions& options) {
     return run.answer(path);
   });
   print_out(fmt::format("{}\n", server.link()));
-  if (!options.quiet) print_note("the link is for this computer alone; Ctrl-C ends it, and so does the end of the run");
+  if (!options.quiet) print_note("the link works only on this computer, until Ctrl-C or the end of the run");
   if (options.open) open_page(server.link(), "--open", options.quiet);
   while (!run.ended()) {
     run.read(reading_s);

@@ -17,7 +17,7 @@ inline constexpr std::size_t most_listed_disks = 2'147'000'000;
 inline void check_listed(std::size_t disks) {
   if (disks <= most_listed_disks) return;
   throw RunError("exact: " + std::to_string(disks) + " disks are more than one process can list, " +
-                 std::to_string(most_listed_disks) + "; run it on several ranks, or by method \"pairwise\"");
+                 std::to_string(most_listed_disks) + "; run the scene on several ranks, or with method \"pairwise\"");
 }
 
 // With this many disks, lists in which each has all others take half a gigabyte.
@@ -26,9 +26,9 @@ inline constexpr std::size_t most_of_all_pairs = 10'000;
 // Throws RunError if there are more, in a box in which disks cannot be listed with a skin.
 inline void check_all_listed(std::size_t disks) {
   if (disks <= most_of_all_pairs) return;
-  throw RunError("exact: in a box that is so much longer than its period across at most " +
+  throw RunError("exact: in a box that is so long compared with its period at most " +
                  std::to_string(most_of_all_pairs) + " disks can be listed, not " + std::to_string(disks) +
-                 "; make it less long, or run it by method \"pairwise\"");
+                 "; make the box shorter, or run the scene with method \"pairwise\"");
 }
 
 }  // namespace carom

@@ -140,8 +140,8 @@ void SlabExact::warn_of_thin_slabs() {
   if (thin_told_) return;
   thin_told_ = true;
   warnings_.push_back(
-      fmt::format("exact: {} slabs would be thinner than what depends on the disks of others, at t = {:g}: while they "
-                  "are, one rank runs them all; fewer ranks would do, or a higher box",
+      fmt::format("exact: {} slabs are too thin at t = {:g}, as disks depend on others beyond the neighbouring slab: "
+                  "while this lasts, one rank runs all disks; use fewer ranks, or a higher box",
                   ranks_.count(), state_.time));
 }
 

@@ -26,7 +26,7 @@ constexpr std::size_t rows_counted = 4096;
 std::string unknown_to_slabs(const Scene& scene) {
   if (scene.run.method != Method::exact) return "";
   if (scene.box.shear.acts()) return "a shear flow";
-  return can_list_in(scene.box) ? "" : "a box so much longer than its period across";
+  return can_list_in(scene.box) ? "" : "a box that is so long compared with its period";
 }
 
 double largest_radius_ever(const Scene& scene, double largest) {
@@ -38,13 +38,13 @@ double largest_radius_ever(const Scene& scene, double largest) {
 std::string why_alone(const Scene& scene, double largest, int ranks) {
   const bool is_exact = scene.run.method == Method::exact;
   const std::string unknown = unknown_to_slabs(scene);
-  if (!unknown.empty()) return fmt::format("exact on slabs does not know {} yet", unknown);
+  if (!unknown.empty()) return fmt::format("exact does not support {} on several ranks yet", unknown);
   const double least = least_thickness * largest;
   // For exact, the thickness is checked in each window.
   if (is_exact || ranks == 1 || least * ranks <= scene.box.height) return "";
   return fmt::format(
-      "{} slabs of a box {:g} high would be thinner than two diameters of the largest disk, whose radius "
-      "is {:g}; use {} at most",
+      "{} slabs of a box of height {:g} would be thinner than two diameters of the largest disk, whose radius is {:g}; "
+      "use at most {}",
       ranks, scene.box.height, largest, std::max(1, static_cast<int>(scene.box.height / least)));
 }
 
@@ -53,8 +53,8 @@ std::string why_alone(const Scene& scene, double largest, int ranks) {
 void check_ranks_know(Method method) {
   if (method == Method::rollback) {
     throw InputError(
-        "several ranks do not know the method rollback, whose frames are of the whole box: use one, or "
-        "--method exact");
+        "method rollback cannot run on several ranks, as its frames need the whole box: use one rank, or --method "
+        "exact");
   }
 }
 

@@ -21,7 +21,7 @@ inline constexpr std::size_t most_disks_of_pile = (std::size_t{1} << 31U) - (std
 inline void check_numbered(std::size_t count, std::size_t most, const char* what) {
   if (count <= most) return;
   throw RunError("pairwise: " + std::to_string(count) + " " + what + " are more than one process can number, " +
-                 std::to_string(most) + "; run it on several ranks");
+                 std::to_string(most) + "; run the scene on several ranks");
 }
 
 inline void check_contacts(std::size_t contacts) {

@@ -180,7 +180,7 @@ TEST_F(ChartOwn, BrownianMotionHasItsOwnFigure) {
 
 TEST_F(ChartOwn, WhatCannotBeChartedIsRefusedWithTheRemedy) {
   expect_refusal("--set box.bottom='\"sink\"'",
-                 "my.gas.toml: cannot be charted: sinks take disks away; expected the same");
+                 "my.gas.toml: cannot be charted: sinks remove disks; expected the same");
   expect_refusal("--set disks.0.count=1 --set box.packing_fraction=0.1 --set 'disks.0.velocities={ uniform = 1.0 }'",
                  "cannot be charted: nothing collides; expected two disks or more");
   expect_refusal("--t-end 0.0001", "no two disks collide by t = 0.0001; expected a longer run (--t-end)");
@@ -204,7 +204,8 @@ t_end = 100.0
 )");
   expect_error("$C chart --tiny --scene fall.toml", 2, "fall.toml: cannot be charted: exact, which all others are");
   expect_error("$C chart --scene missing.toml", 2, "missing.toml: ");
-  expect_error("$C chart --t-end 5", 2, "chart: changes to a scene, and no scene; expected --scene SCENE.toml");
+  expect_error("$C chart --t-end 5", 2,
+               "chart: changes of a scene are given, but no scene; expected --scene SCENE.toml");
   EXPECT_THAT(files_in(""), ElementsAre("fall.toml", "my.gas.toml", "small.toml")) << "nothing is left behind";
 }
 

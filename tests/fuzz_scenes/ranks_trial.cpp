@@ -85,7 +85,7 @@ RankTrial try_on_ranks(const std::string& text, const std::string& name, const s
     return trial;
   }
   if (scene.run.method == Method::rollback) {
-    trial.refusal = "ranks do not know the method";
+    trial.refusal = "cannot run on several ranks";
     return trial;
   }
   const auto engine = make_parallel_engine(scene, start, {1});

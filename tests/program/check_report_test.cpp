@@ -93,10 +93,10 @@ TEST_F(CheckReport, AShearFlowIsInWords) {
 }
 
 TEST_F(CheckReport, WhatALongStepLeadsToIsTold) {
-  EXPECT_THAT(said("--dt 0.5 --set 'disks.0.velocities=[[1, 0]]'"), HasSubstr("safe step: steps will be split; take"));
-  EXPECT_THAT(said("--dt 0.15 --set physics.diffusion=0.1"), HasSubstr("safe step: steps may be split; take"));
+  EXPECT_THAT(said("--dt 0.5 --set 'disks.0.velocities=[[1, 0]]'"), HasSubstr("safe step: steps will be split; use"));
+  EXPECT_THAT(said("--dt 0.15 --set physics.diffusion=0.1"), HasSubstr("safe step: steps may be split; use"));
   const std::string fast = said("--dt 0.5 --set 'disks.0.velocities=[[1e4, 0]]'");
-  EXPECT_THAT(fast, HasSubstr("safe step: the run will stop at once, with status 3; take"));
+  EXPECT_THAT(fast, HasSubstr("safe step: the run will stop at once, with status 3; use"));
 }
 
 TEST_F(CheckReport, WhatARunWouldWarnOfIsSaid) {
@@ -133,7 +133,7 @@ TEST_F(CheckReport, AWallThatMovesAlongItselfDoesNothing) {
   const auto with_end_at = [&](const std::string& height) {
     return said(std::string(wall).replace(wall.find("HEIGHT"), 6, height));
   };
-  EXPECT_THAT(with_end_at("5"), HasSubstr("walls.0 moves along itself and is smooth"));
+  EXPECT_THAT(with_end_at("5"), HasSubstr("walls.0 moves along itself but is smooth"));
   EXPECT_THAT(with_end_at("6"), Not(HasSubstr("moves along itself")));
 }
 
@@ -145,9 +145,8 @@ TEST_F(CheckReport, ThatOneRankRunsAllDisksIsTold) {
                 "{ maxwell = 1.0 }, radius = 0.5, mass = 1.0 }]'")["troubles"];
   };
   ASSERT_EQ(troubles("40").size(), 1U);
-  EXPECT_THAT(
-      troubles("40")[0].get<std::string>(),
-      testing::ContainsRegex("^in ([0-9]+) of [0-9]+ steps? that were tried on 2 ranks one of them ran all disks"));
+  EXPECT_THAT(troubles("40")[0].get<std::string>(),
+              testing::ContainsRegex("^in ([0-9]+) of [0-9]+ steps? of a trial on 2 ranks one of them ran all disks"));
   EXPECT_EQ(troubles("400"), Json::array());
 }
 
@@ -159,7 +158,7 @@ TEST_F(CheckReport, OnHowManyRanksItTriedIsTold) {
   EXPECT_EQ(five["count"], 5);
   EXPECT_EQ(five["tried"], 3);
   EXPECT_THAT(said("--ranks 2" + tall), Not(HasSubstr("from a trial on")));
-  EXPECT_THAT(said("--ranks 5" + tall), HasSubstr("a step, from a trial on 3\n"));
+  EXPECT_THAT(said("--ranks 5" + tall), HasSubstr("per step, from a trial on 3\n"));
 }
 
 // Without ffmpeg and gnuplot the memory of ffmpeg and the plots must not be counted.

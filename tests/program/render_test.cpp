@@ -113,7 +113,7 @@ TEST_F(Render, TwoDoNotMakeOneFileAtOnce) {
     ASSERT_TRUE(first.take(at("a.svg.unfinished")));
     const Outcome o = carom("render out -o a.svg");
     EXPECT_EQ(o.status, 2);
-    EXPECT_EQ(o.err, "carom: error: a.svg: another carom render is making it now; expected another file (-o)\n");
+    EXPECT_EQ(o.err, "carom: error: a.svg: another carom render is writing this file; expected another file (-o)\n");
     EXPECT_EQ(text_of(at("a.svg.unfinished/made/frame")), "of the first");
   }
   EXPECT_EQ(carom("render out -o a.svg").status, 0) << "the rest of a killed render must not matter";
@@ -157,11 +157,11 @@ TEST_F(Render, WhatItCannotMakeIsRefusedInOneLine) {
   };
   refused("-o film.avi", "film.avi\" ends in \".avi\"; expected .mp4, .webm or .gif for a movie, .png or .svg");
   refused("-o film", "expected .mp4");
-  refused("-o film.mp4 --frame 2", "is a movie, and --frame asks for a picture; expected .png or .svg");
+  refused("-o film.mp4 --frame 2", "is a movie, but --frame draws a picture; expected .png or .svg");
   refused("-o x.png --frame 6", "there is no frame 6; expected 1 to 5");
   refused("-o x.png --colour sped",
           "there is no \"sped\"; expected one of speed, group, radius, mass, id (nearest: speed)");
-  refused("-o x.png --range 0:1", "--range: is out of place; groups have colours of their own");
+  refused("-o x.png --range 0:1", "--range: cannot be used; groups have colours of their own");
   refused("-o x.png --colour mass --range 2:1", "expected two numbers, the lower first");
   refused("-o x.png --size 641x400", "expected a width and a height in pixels, even numbers from 320 to 8192");
   refused("-o x.png --size 640", "expected WIDTHxHEIGHT, as in 1280x720");
@@ -192,7 +192,7 @@ TEST_F(LongRender, FramesOfAMovieAreReplacedByForceOnly) {
   write("out/frames/notes.txt", "mine");
   const Outcome mine = shell(render + "--force");
   EXPECT_EQ(mine.status, 2);
-  EXPECT_THAT(mine.err, HasSubstr("out/frames: is not a folder of frames and nothing else; choose another folder"));
+  EXPECT_THAT(mine.err, HasSubstr("out/frames: is not a folder that holds only frames; choose another folder"));
   EXPECT_EQ(text_of(at("out/frames/notes.txt")), "mine");
 }
 

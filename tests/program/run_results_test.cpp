@@ -114,12 +114,12 @@ TEST_F(RunResults, WhatThePressureIsWhereTheEnergyChanges) {
   const Json s = Json::parse(text_of(at("cooling/summary.json")));
   ASSERT_LT(s["energy_final"], 0.5 * s["energy_initial"].get<double>());
   EXPECT_TRUE(s["pressure"].is_null()) << s["pressure"];
-  EXPECT_THAT(o.out,
-              HasSubstr(fmt::format("  pressure    not known from the kinetic energy at the start, {:.6g}, and at "
-                                    "the end, {:.6g}; series.csv has it over time\n",
-                                    s["energy_initial"].get<double>(), s["energy_final"].get<double>())));
-  EXPECT_THAT(carom("run small.toml -o told --t-end 20 --set box.wall_restitution=0.5 --set output.series=false").out,
-              testing::ContainsRegex("  pressure    not known from [^;]+; output.series = true tells it over time\n"));
+  EXPECT_THAT(o.out, HasSubstr(fmt::format("  pressure    unknown from the kinetic energy of {:.6g} at the start and "
+                                           "{:.6g} at the end; series.csv has the pressure over time\n",
+                                           s["energy_initial"].get<double>(), s["energy_final"].get<double>())));
+  EXPECT_THAT(
+      carom("run small.toml -o told --t-end 20 --set box.wall_restitution=0.5 --set output.series=false").out,
+      testing::ContainsRegex("  pressure    unknown from [^;]+; output.series = true gives the pressure over time\n"));
   std::string sheared = "run small.toml -o sheared --set box.shear_rate=0.1";
   for (const char* const side : {"left", "right", "bottom", "top"}) {
     sheared += fmt::format(" --set 'box.{}=\"periodic\"'", side);
@@ -171,8 +171,8 @@ TEST_F(RunResults, BrownianDisksHaveNoEnergy) {
   const std::string scene = "run small.toml --set physics.diffusion=0.1 --set output.plots='[\"energy\"]'";
   const Outcome o = carom(scene + " --json -o out");
   ASSERT_EQ(o.status, 0) << o.err;
-  EXPECT_THAT(o.err, HasSubstr("small.toml: output.plots: Brownian disks have no velocity, u / dt is the displacement "
-                               "of a step: no energy is drawn\n"));
+  EXPECT_THAT(o.err, HasSubstr("small.toml: output.plots: Brownian disks have no velocities, only a displacement u in "
+                               "each step: no energies are plotted\n"));
   const Json s = Json::parse(o.out);
   for (const char* const key : {"energy_initial", "energy_final", "momentum_drift", "pressure"}) {
     EXPECT_TRUE(s[key].is_null()) << key;
@@ -276,9 +276,10 @@ TEST_F(RunResults, WhereResultsGo) {
   EXPECT_THAT(carom("run small.toml --max-walltime 1e-9 --t-end 1e6").err, HasSubstr("results go to out/small-3"));
   fs::remove_all(at("out/small"));
   ASSERT_EQ(carom("run small.toml --max-walltime 1e-9 --t-end 1e6").status, 4);
-  EXPECT_THAT(carom("run small.toml").err,
-              HasSubstr("results go to out/small-4 (out/small holds another run; carom resume out/small goes on with "
-                        "that)\n"));
+  EXPECT_THAT(
+      carom("run small.toml").err,
+      HasSubstr(
+          "results go to out/small-4 (out/small holds another run; carom resume out/small continues that run)\n"));
   EXPECT_EQ(carom("resume out/small --quiet --t-end 1").status, 0);
   EXPECT_EQ(text_of(at("out/small/trajectory.xyz")), text_of(at("out/small-2/trajectory.xyz")));
   o = carom("run small.toml --force --quiet --seed 7");
@@ -316,7 +317,7 @@ TEST_F(RunResults, ClosedStreamsNeverEndUpInAFile) {
 
 TEST_F(RunResults, WhatThePhysicsStopsIsKeptButNoResult) {
   expect_error("$C run small.toml --quiet -o out --dt 0.5 --set disks.0.velocities.uniform=1e4", 3,
-               "is kept in out/carom-unfinished");
+               "are kept in out/carom-unfinished");
   EXPECT_THAT(files_in("out"), ElementsAre("carom-unfinished"));
   expect_error("$C run small.toml --quiet -o out", 2, "another run is writing there, or stopped before its end");
   EXPECT_EQ(carom("run small.toml --quiet -o out --force").status, 0);
@@ -348,10 +349,10 @@ TEST_F(LongRunResults, APlotThatFailsCostsNothingElse) {
   const std::string plots = " --set output.plots='[\"velocity\", \"energy\"]' --set output.movie=true";
   ASSERT_EQ(carom("run small.toml --quiet -o whole" + plots).status, 0);
   const std::string fails = "PATH=\"$PWD/bin:$PATH\" $C ";
-  expect_error(fails + "run small.toml --quiet -o out" + plots, 1,
-               "gnuplot could not draw out/carom-unfinished/velocity.svg: no fonts; gnuplot could not draw "
-               "out/carom-unfinished/energy.svg: no fonts; all else of the run is in out; carom resume out draws the "
-               "plots\n");
+  expect_error(
+      fails + "run small.toml --quiet -o out" + plots, 1,
+      "gnuplot could not draw out/carom-unfinished/velocity.svg: no fonts; gnuplot could not draw "
+      "out/carom-unfinished/energy.svg: no fonts; all other results are in out; carom resume out draws the plots\n");
   EXPECT_THAT(files_in("out"), ElementsAre("checkpoint.carom", "movie.mp4", "scene.toml", "series.csv", "summary.json",
                                            "trajectory.xyz"));
   expect_error(fails + "resume out --quiet", 1, "no fonts");
@@ -366,7 +367,7 @@ TEST_F(LongRunResults, AMovieThatFailsCostsNothingElse) {
   fs::permissions(at("bin/ffmpeg"), fs::perms::owner_all);
   ASSERT_EQ(carom("run small.toml --quiet -o whole").status, 0);
   expect_error("PATH=\"$PWD/bin:$PATH\" $C run small.toml --quiet -o out --set output.movie=true", 1,
-               "movie.mp4: broken; all else of the run is in out; carom render out makes the movie\n");
+               "movie.mp4: broken; all other results are in out; carom render out makes the movie\n");
   EXPECT_EQ(text_of(at("out/trajectory.xyz")), text_of(at("whole/trajectory.xyz")));
   EXPECT_EQ(Json::parse(text_of(at("out/summary.json")))["state_hash"],
             Json::parse(text_of(at("whole/summary.json")))["state_hash"]);
@@ -374,7 +375,7 @@ TEST_F(LongRunResults, AMovieThatFailsCostsNothingElse) {
 }
 
 TEST_F(RunResults, AFolderThatCannotBeIsRefusedBeforeAnythingIsDone) {
-  expect_error("$C run small.toml -o /", 2, "/: is the root of all folders; expected one of the run's own, such as");
+  expect_error("$C run small.toml -o /", 2, "/: is the root of all folders; expected a folder for this run, such as");
   expect_error("$C run small.toml -o / --force", 2, "-o out/small");
   expect_error("$C run small.toml -o /proc/nothing/out", 2, "/proc/nothing/out: cannot be made: ");
   expect_error("$C run small.toml -o small.toml/out", 2, "small.toml/out: cannot be made: Not a directory");

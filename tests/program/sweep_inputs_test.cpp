@@ -106,14 +106,13 @@ TEST_F(SweepInputs, ARunThatWasStoppedIsLookedAtToo) {
 TEST_F(SweepInputs, ARunThatIsNotWhatItWasIsNamed) {
   ASSERT_EQ(sweep("--set output.checkpoint=600").status, 0);
   ASSERT_EQ(carom("resume s/runs/0002 --t-end 2 --quiet").status, 0);
-  EXPECT_THAT(
-      sweep("--set output.checkpoint=600").err,
-      HasSubstr("s: holds another sweep: its run 0002 is of another scene; remove s/runs/0002 to run it again"));
+  EXPECT_THAT(sweep("--set output.checkpoint=600").err,
+              HasSubstr("s: holds another sweep: its run 0002 has another scene; remove s/runs/0002 to run it again"));
   fs::remove_all(at("s/runs/0002"));
   EXPECT_THAT(sweep("--set output.checkpoint=600").err, HasSubstr("1 of 2 runs are left"));
   fs::remove(at("s/runs/0001/scene.toml"));
   EXPECT_THAT(sweep("--set output.checkpoint=600").err,
-              HasSubstr("its run 0001 cannot be told: s/runs/0001/scene.toml: cannot be opened"));
+              HasSubstr("the scene of its run 0001 is unknown: s/runs/0001/scene.toml: cannot be opened"));
 }
 
 // Another version of Carom may write a scene in other words, and without keys that did not exist yet.
@@ -123,7 +122,7 @@ TEST_F(SweepInputs, TheSameSceneInOtherWordsIsTheSame) {
   write("s/runs/0001/scene.toml", "# of another version\n" + test::replaced(written, "wall_restitution = 1.0\n", ""));
   EXPECT_THAT(sweep().err, HasSubstr("0 of 2 runs are left"));
   write("s/runs/0001/scene.toml", test::replaced(written, "radius = 0.4", "radius = 0.3"));
-  EXPECT_THAT(sweep().err, HasSubstr("its run 0001 is of another scene"));
+  EXPECT_THAT(sweep().err, HasSubstr("its run 0001 has another scene"));
 }
 
 TEST_F(SweepInputs, RunsOfSeveralVersionsAreToldOf) {

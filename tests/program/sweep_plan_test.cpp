@@ -79,7 +79,7 @@ TEST(SweepPlan, ColonsWithinQuotesMakeNoRange) {
   EXPECT_THAT(values("\"a:b:c\""), ElementsAre("\"a:b:c\""));
   EXPECT_THAT(values("\"0:1:3\",'4:5'"), ElementsAre("\"0:1:3\"", "'4:5'"));
   EXPECT_THAT(values("{ file = \"a:b:c.csv\" }"), ElementsAre("{ file = \"a:b:c.csv\" }"));
-  EXPECT_THAT(complaint("key=\"a\":1:3"), HasSubstr("\"\"a\"\" is no number"));
+  EXPECT_THAT(complaint("key=\"a\":1:3"), HasSubstr("\"\"a\"\" is not a number"));
 }
 
 TEST(SweepPlan, AQuoteAfterABackslashEndsNoString) {
@@ -93,10 +93,10 @@ TEST(SweepPlan, SaysWhatIsNoRangeAndNoList) {
   for (const char* const text : {"key=0:1:1", "key=nan:1:3", "key=0:inf:2", "key=-1e308:1e308:3", "key=0:1:1000001",
                                  "key=0:1:0", "key=0:1:-2", "key=0:1", "key=0:1:2:3"}) {
     EXPECT_THAT(complaint(text), HasSubstr(std::string("--over: \"") + text +
-                                           "\" is no range; expected KEY=FROM:TO:COUNT, of two values or more, or"));
+                                           "\" is not a range; expected KEY=FROM:TO:COUNT, of two values or more, or"));
   }
-  EXPECT_THAT(complaint("key=0:1:2.5"), HasSubstr("\"2.5\" is no number"));
-  EXPECT_THAT(complaint("key=0:1x:3"), HasSubstr("\"1x\" is no number"));
+  EXPECT_THAT(complaint("key=0:1:2.5"), HasSubstr("\"2.5\" is not a number"));
+  EXPECT_THAT(complaint("key=0:1x:3"), HasSubstr("\"1x\" is not a number"));
   for (const char* const text : {"key", "=1,2", "key="}) {
     EXPECT_THAT(complaint(text), HasSubstr(std::string("--over: is \"") + text + "\"; expected KEY=FROM:TO:COUNT"));
   }
@@ -107,10 +107,9 @@ TEST(SweepPlan, SaysWhatIsNoRangeAndNoList) {
 
 // Both values would be the same run under two names, and each call of the sweep would run the second of them again.
 TEST(SweepPlan, AValueIsNotGivenTwice) {
-  EXPECT_EQ(
-      complaint("key=0.5,1,0.50"),
-      "--over: \"key=0.5,1,0.50\" has the value 0.50 twice; expected values that differ, and --seeds N for several "
-      "runs of one");
+  EXPECT_EQ(complaint("key=0.5,1,0.50"),
+            "--over: \"key=0.5,1,0.50\" has the value 0.50 twice; expected different values; --seeds N makes several "
+            "runs of one");
   EXPECT_THAT(complaint("key=exact,pairwise,exact"), HasSubstr("has the value exact twice"));
   EXPECT_THAT(complaint("key=1.0,1"), HasSubstr("has the value 1 twice"));
   EXPECT_THAT(complaint("key=1:1.0000000000000002:3"), HasSubstr("has the value 1 twice"));

@@ -125,8 +125,8 @@ TEST_F(SweepTest, ASummaryThatIsNoneIsNamed) {
     folder_.write("s/runs/0002/summary.json", other);
     const auto [status, text] = carom("sweep gas.toml -o s --seeds 2");
     EXPECT_EQ(status, 2);
-    EXPECT_THAT(text, HasSubstr("carom: error: s/runs/0002/summary.json: is no JSON object; expected the summary of a "
-                                "run; remove s/runs/0002 to run it again\n"));
+    EXPECT_THAT(text, HasSubstr("carom: error: s/runs/0002/summary.json: is not a JSON object; expected the summary of "
+                                "a run; remove s/runs/0002 to run it again\n"));
   }
 }
 
@@ -164,7 +164,7 @@ TEST_F(SweepTest, GrowsWithoutLosingWhatIsThere) {
   EXPECT_EQ(less_status, 2);
   EXPECT_THAT(less, HasSubstr("s: holds another sweep: this one lacks its run physics.restitution="));
   EXPECT_THAT(less,
-              HasSubstr("give it all of that and more, choose another folder with -o, or replace it with --force"));
+              HasSubstr("give all its values and more, choose another folder with -o, or replace it with --force"));
   folder_.write("gas.toml", std::string(test::small_gas) + "# changed\n");
   EXPECT_THAT(carom("sweep gas.toml -o s --over physics.restitution=0.5:1.0:3 --seeds 3").second,
               HasSubstr("s: holds another sweep: the scene has changed since; "));
@@ -178,7 +178,7 @@ TEST_F(SweepTest, ARunThatIsStoppedByAnotherIsNamed) {
       "output.checkpoint=1000 & P=$!; until [ -e s/runs/0001/carom-unfinished/checkpoint.carom ] || ! kill -0 $P; "
       "do sleep 0.01; done; kill -XCPU $(ps -o pid= --ppid $P); wait $P; }");
   EXPECT_EQ(status, 1) << text;
-  EXPECT_THAT(text, HasSubstr("run 0001: was stopped from outside; the same command goes on with it"));
+  EXPECT_THAT(text, HasSubstr("run 0001: was stopped from outside; the same command continues it"));
 }
 
 // A sweep that is killed stops its runs, which write checkpoints. Until then the folder stays locked.
@@ -196,7 +196,7 @@ TEST_F(SweepTest, ItsRunsEndWithIt) {
   }
   const auto [status, text] = carom("sweep gas.toml -o s --seeds 2 --force");
   EXPECT_EQ(status, 2);
-  EXPECT_THAT(text, HasSubstr("s: another sweep is running there; expected a folder of its own (-o)"));
+  EXPECT_THAT(text, HasSubstr("s: another sweep is running there; expected another folder (-o)"));
   // SIGUSR1 makes each run write a checkpoint and go on. The next checkpoint is another file, as the previous one is
   // kept.
   const auto file_of = [&](const char* run) {
@@ -293,14 +293,14 @@ TEST_F(SweepTest, NothingRunsWhereAnythingIsWrong) {
       {"--over physics.restitutoin=0.5:1:3", "physics.restitutoin: unknown key; expected one of"},
       {"--over physics.restitution=0.5:1.5:3", "carom: error: --over physics.restitution: is 1.5"},
       {"--over run.t_end=1,2,1", "has the value 1 twice"},
-      {"--over physics.restitution=0.5:1", "\"physics.restitution=0.5:1\" is no range; expected KEY=FROM:TO:COUNT"},
+      {"--over physics.restitution=0.5:1", "\"physics.restitution=0.5:1\" is not a range; expected KEY=FROM:TO:COUNT"},
       {"--over physics.restitution", "expected KEY=FROM:TO:COUNT"},
-      {"--over physics.restitution=0:1:0", "is no range"},
+      {"--over physics.restitution=0:1:0", "is not a range"},
       {"--over run.method=exact,exakt", "unknown name \"exakt\""},
       {"--over seed=1,2", "expected --seeds N"},
       {"--over run.t_end=1 --over run.t_end=2", "run.t_end is given twice"},
       {"", "nothing to sweep over"},
-      {"--seeds 3 --set seed=18446744073709551614", "--seeds: 3 seeds from 18446744073709551614 on go beyond 2^64 - 1"},
+      {"--seeds 3 --set seed=18446744073709551614", "--seeds: 3 seeds from 18446744073709551614 on exceed 2^64 - 1"},
       {"--seeds 18446744073709551616", "expected a whole number from 1 to 2147483647"},
       {"--seeds 2000000000", "2e+09 runs are too many; expected at most 1000000"},
       {"--seeds 2 --emit pbs", "expected one of slurm, parallel"}};
@@ -376,7 +376,7 @@ TEST_F(SweepTest, StoppedItTakesItsRunsWithItAndGoesOnFromTheirCheckpoints) {
             "sleep 0.01; done; kill -USR1 $!; until [ -e s/runs/0002/carom-unfinished/checkpoint.carom ]; do sleep "
             "0.01; done; kill -TERM $!; wait $!; }");
   EXPECT_EQ(status, 4) << text;
-  EXPECT_THAT(text, HasSubstr("stopped by SIGTERM with 1 of 3 runs done; the same command goes on"));
+  EXPECT_THAT(text, HasSubstr("stopped by SIGTERM with 1 of 3 runs done; the same command continues the sweep"));
   EXPECT_EQ(rows("s/sweep.csv").size(), 2U);
   EXPECT_EQ(carom(words + " --emit parallel").first, 0);
   EXPECT_THAT(read("s/sweep.sh"), HasSubstr("'resume'"));
@@ -390,7 +390,7 @@ TEST_F(SweepTest, WarningsAreCounted) {
   const auto [status, text] =
       carom("sweep gas.toml -o s --method pairwise --dt 0.05 --over disks.0.velocities.maxwell=1,1e4,2e4");
   EXPECT_EQ(status, 0) << text;
-  EXPECT_THAT(text, HasSubstr("2 of 3 runs warn of their method, see the column warnings"));
+  EXPECT_THAT(text, HasSubstr("2 of 3 runs have warnings about their method; see the column warnings"));
   const std::vector<std::string> table = rows("s/sweep.csv");
   EXPECT_THAT(table.at(0), HasSubstr(",warnings,step_s,state_hash"));
   EXPECT_THAT(table.at(1), HasSubstr(",0,0,"));

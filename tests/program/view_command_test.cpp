@@ -234,7 +234,7 @@ TEST_F(View, APageThatFailsCostsTheRunNothingElse) {
       shell("ulimit -f 100; $C " + small + " --quiet");  // blocks of 512 bytes, fewer than any page has
   EXPECT_EQ(lost.status, 1);
   EXPECT_THAT(lost.err, HasSubstr("carom: error: view.html could not be made: "));
-  EXPECT_THAT(lost.err, HasSubstr("; all else of the run is in out; carom view out makes the page\n"));
+  EXPECT_THAT(lost.err, HasSubstr("; all other results are in out; carom view out makes the page\n"));
   EXPECT_TRUE(fs::exists(at("out/summary.json")));
   EXPECT_FALSE(fs::exists(at("out/view.html")));
   EXPECT_EQ(carom("view out").status, 0);
@@ -263,7 +263,7 @@ TEST_F(View, TellsOfARunInThePlaceOfAnEarlierOne) {
   const pid_t next = start({"run", "gas.toml", "--quiet", "--force", "-o", "out", "--t-end", "1e9"});
   while (!fs::exists(at("out/carom-unfinished/trajectory.xyz"))) usleep(1000);
   const std::string note =
-      "carom: out/trajectory.xyz is of the run before the one that is going on in out/carom-unfinished\n";
+      "carom: out/trajectory.xyz belongs to an earlier run than the one in progress in out/carom-unfinished\n";
   const Outcome page = carom("view out -o page.html"), picture = carom("render out -o last.svg");
   EXPECT_THAT(page.err, HasSubstr(note));
   EXPECT_THAT(page.err, HasSubstr("5 frames"));
@@ -296,7 +296,7 @@ TEST_F(View, ARunCanEndWithIt) {
   write("bare.toml", bare);
   const Outcome none = carom("run bare.toml -o none --view");
   EXPECT_EQ(none.status, 2);
-  EXPECT_THAT(none.err, HasSubstr("--view: the scene writes no trajectory; expected one"));
+  EXPECT_THAT(none.err, HasSubstr("--view: the scene writes no trajectory; expected a trajectory"));
   EXPECT_FALSE(fs::exists(at("none")));
 }
 

@@ -45,7 +45,7 @@ TEST_F(RanksRun, AKilledRankEndsAllAndNothingIsLost) {
       EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10) + 10 * start_took);
       EXPECT_EQ(said().substr(before),
                 "carom: error: one of the ranks was killed by signal 9; the last checkpoint, if the run has written "
-                "any, is whole: carom resume with its folder\n");
+                "one, is intact: use carom resume with its folder\n");
       EXPECT_TRUE(ranks_of(folder).empty());
     }
     const std::string one = exact ? "one_exact" : "one_pairwise";

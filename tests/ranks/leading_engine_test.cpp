@@ -166,7 +166,7 @@ TEST(LeadingEngine, ScenesThatRanksDoNotKnowAreRefusedAndOthersFollow) {
       ADD_FAILURE() << "rollback was accepted";
     } catch (const InputError& error) {
       EXPECT_STREQ(error.what(),
-                   "several ranks do not know the method rollback, whose frames are of the whole box: use one, or "
+                   "method rollback cannot run on several ranks, as its frames need the whole box: use one rank, or "
                    "--method exact");
     }
   });

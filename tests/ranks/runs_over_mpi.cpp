@@ -38,7 +38,7 @@ TEST_F(RanksRun, SayWhereMpiexecIsMissing) {
   const Outcome o = shell("PATH=/nonexistent $C run scene.toml --ranks 2 -o out");
   EXPECT_EQ(o.status, 2);
   EXPECT_EQ(o.err,
-            "carom: error: --ranks: there is no mpiexec in PATH; expected that of Open MPI, Debian's package "
+            "carom: error: --ranks: there is no mpiexec in PATH; expected mpiexec of Open MPI, Debian's package "
             "openmpi-bin\n");
 }
 
@@ -175,16 +175,16 @@ TEST_F(RanksRun, WhatRanksCannotDoIsSaidInOneLine) {
   const Outcome rollback = carom("run scene.toml --ranks 2 --quiet --method rollback -o out");
   EXPECT_EQ(rollback.status, 2);
   EXPECT_EQ(rollback.err,
-            "carom: error: several ranks do not know the method rollback, whose frames are of the whole box: use one, "
-            "or --method exact\n");
+            "carom: error: method rollback cannot run on several ranks, as its frames need the whole box: use one "
+            "rank, or --method exact\n");
   const Outcome reference = carom("run scene.toml --ranks 2 --quiet --engine reference -o out");
   EXPECT_EQ(reference.status, 2);
-  EXPECT_NE(reference.err.find("--ranks: the reference runs on one"), std::string::npos) << reference.err;
+  EXPECT_NE(reference.err.find("--ranks: the reference engine runs on one rank"), std::string::npos) << reference.err;
   EXPECT_FALSE(fs::exists(at("out")));
   const std::string flat = "run scene.toml --set box.height=5 --set disks.0.count=20 ";
   const Outcome many = carom(flat + "--ranks 3 -o out");
   EXPECT_EQ(many.status, 0);
-  EXPECT_NE(many.err.find("one rank runs all disks: 3 slabs of a box 5 high would be thinner"), std::string::npos)
+  EXPECT_NE(many.err.find("one rank runs all disks: 3 slabs of a box of height 5 would be thinner"), std::string::npos)
       << many.err;
   ASSERT_EQ(carom(flat + "--quiet -o one").status, 0);
   EXPECT_EQ(summary("one")["state_hash"], summary("out")["state_hash"]);
@@ -198,9 +198,10 @@ TEST_F(RanksRun, AsManyRanksAsMpirunHasStartedOrNone) {
   for (const std::string wrong : {"2", "1"}) {
     const Outcome run = shell(mpirun + "3 $C-mpi run scene.toml --quiet -o out --ranks " + wrong);
     EXPECT_EQ(run.status, 2);
-    EXPECT_EQ(run.err, "carom: error: --ranks: " + wrong +
-                           " of them are asked for, and mpirun has started 3; expected the number that mpirun -n says, "
-                           "or no --ranks\n");
+    EXPECT_EQ(
+        run.err,
+        "carom: error: --ranks: " + wrong +
+            " ranks are requested, but mpirun has started 3; expected the number given to mpirun -n, or no --ranks\n");
     EXPECT_FALSE(fs::exists(at("out")));
   }
   ASSERT_EQ(shell(mpirun + "2 $C-mpi run scene.toml --quiet --max-walltime 1e-9 -o out --ranks 2").status, 4);

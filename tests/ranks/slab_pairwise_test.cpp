@@ -263,8 +263,8 @@ TEST(SlabPairwiseAlone, RunsSlabsThinnerThanTwoDiametersOfTheLargestDisk) {
   run_on_local_ranks(
       1, [&](Ranks& ranks) { EXPECT_TRUE(make_slab_pairwise(scene, start, {1}, ranks)->take_warnings().empty()); });
   const std::string thin =
-      " slabs of a box 18 high would be thinner than two diameters of the largest disk, whose radius is 4; use 1 at "
-      "most";
+      " slabs of a box of height 18 would be thinner than two diameters of the largest disk, whose radius is 4; use at "
+      "most 1";
   expect_one_rank(scene, "2" + thin);
 }
 

@@ -80,7 +80,7 @@ inline SlabTrace slab_trace(const Scene& scene, const State& start, const Thread
   }
   see_end(*engine, trace);
   trace.thin = std::erase_if(trace.warnings, [](const std::string& warning) {
-    return warning.find("slabs would be thinner") != std::string::npos || warning.find("one rank runs all disks") == 0;
+    return warning.find("slabs are too thin") != std::string::npos || warning.find("one rank runs all disks") == 0;
   });
   return trace;
 }
