@@ -33,8 +33,8 @@ struct Setting {
 };
 // Settings for Open MPI, unless the user has set them: more ranks than cores are allowed, and sleep while they wait; no
 // rank is bound to a core, since Open MPI would bind one or two ranks to a core each, with all their threads and the
-// programs that rank 0 starts; no reading of other processes' memory, which containers forbid; and when a rank has died,
-// the others have this number of seconds to end.
+// programs that rank 0 starts; no reading of other processes' memory, which containers forbid; and when a rank has
+// died, the others have this number of seconds to end.
 constexpr std::array<Setting, 5> mpi_settings{{{"OMPI_MCA_rmaps_base_oversubscribe", "1"},
                                                {"OMPI_MCA_mpi_yield_when_idle", "1"},
                                                {"OMPI_MCA_hwloc_base_binding_policy", "none"},

@@ -21,8 +21,8 @@ std::string parallel_script(const Sweep& sweep) {
 
 std::string slurm_script(const Sweep& sweep) {
   const bool alone = sweep.ranks() == 1;
-  // Slurm itself does not start several ranks of a run: mpirun does, on the nodes of the task. Without --bind-to none it
-  // would bind two ranks to a core each, with all their threads.
+  // Slurm itself does not start several ranks of a run: mpirun does, on the nodes of the task. Without --bind-to none
+  // it would bind two ranks to a core each, with all their threads.
   const std::string starter = alone ? "" : fmt::format("mpirun -n {} --bind-to none ", sweep.ranks());
   std::size_t left = 0;
   std::string cases;

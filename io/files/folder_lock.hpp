@@ -15,8 +15,8 @@ class FolderLock {
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
-  // Returns false if another object, of this or another process, has the folder, or had it and has just taken it away. On
-  // file systems without locks always true. Precondition: this object holds no folder.
+  // Returns false if another object, of this or another process, has the folder, or had it and has just taken it away.
+  // On file systems without locks always true. Precondition: this object holds no folder.
   [[nodiscard]] bool take(const std::filesystem::path& folder);
   void give_up();
 
