@@ -17,7 +17,7 @@
 #include "core/base/check.hpp"
 #include "core/base/wall_clock.hpp"
 #include "core/disks/state_hash.hpp"
-#include "core/load/scene_check.hpp"
+#include "core/load/scene_warnings.hpp"
 #include "core/scene/disk_group.hpp"
 #include "core/scene/scene_text.hpp"
 #include "io/files/output_folder.hpp"

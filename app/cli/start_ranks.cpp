@@ -59,7 +59,7 @@ std::string path_of_mpiexec() {
 // The environment variable with the process id of the starter, for rank 0.
 constexpr const char* starter_name = "CAROM_STARTER";
 
-// The signal by which rank 0 announces that it takes signals now; nobody else sends it.
+// The signal by which rank 0 announces that it takes signals now; no other process sends it.
 int ready_signal() {
   return SIGRTMIN;
 }

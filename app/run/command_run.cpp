@@ -8,7 +8,7 @@
 #include "app/cli/messages.hpp"
 #include "app/run/run_and_report.hpp"
 #include "core/load/method_choice.hpp"
-#include "core/load/scene_check.hpp"
+#include "core/load/scene_warnings.hpp"
 #include "io/files/checkpoint_names.hpp"
 #include "io/files/output_folder.hpp"
 #include "io/files/shell_word.hpp"

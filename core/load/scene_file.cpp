@@ -13,6 +13,7 @@
 #include "core/base/input_file.hpp"
 #include "core/base/input_message.hpp"
 #include "core/base/short_number.hpp"
+#include "core/load/box_check.hpp"
 #include "core/load/method_choice.hpp"
 #include "core/load/moving_side_check.hpp"
 #include "core/load/scene_check.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/disks/state.hpp"
-#include "core/load/scene_check.hpp"
+#include "core/load/scene_warnings.hpp"
 #include "core/measure/energy_gain.hpp"
 #include "core/scene/scene.hpp"
 #include "parallel/simulation.hpp"

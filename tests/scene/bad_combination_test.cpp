@@ -5,7 +5,7 @@
 
 #include "core/base/machine_memory.hpp"
 #include "core/load/memory_need.hpp"
-#include "core/load/scene_check.hpp"
+#include "core/load/scene_warnings.hpp"
 #include "tests/support/scene_support.hpp"
 #include "tests/support/test_folder.hpp"
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/load/scene_check.hpp"
+#include "core/load/scene_warnings.hpp"
 #include "tests/support/scene_support.hpp"
 
 namespace carom {

@@ -11,8 +11,8 @@
 #include <fstream>
 
 #include "app/chart/chart_scenes.hpp"
-#include "core/load/scene_check.hpp"
 #include "core/load/scene_file.hpp"
+#include "core/load/scene_warnings.hpp"
 #include "core/scene/scene_text.hpp"
 #include "core/start/initial_state.hpp"
 #include "parallel/simulation.hpp"

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "core/load/scene_check.hpp"
+#include "core/load/scene_warnings.hpp"
 #include "tests/support/scene_support.hpp"
 
 namespace carom {
