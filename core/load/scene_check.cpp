@@ -9,6 +9,7 @@
 #include "core/base/short_number.hpp"
 #include "core/load/memory_need.hpp"
 #include "core/scene/scene_names.hpp"
+#include "core/scene/scene_range_check.hpp"
 #include "core/scene/scene_ranges.hpp"
 #include "core/scene/scene_roughness.hpp"
 #include "core/scene/scene_thermostat.hpp"
