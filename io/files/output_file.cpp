@@ -46,6 +46,14 @@ void OutputFile::write(std::string_view text) {
   bytes_ += text.size();
 }
 
+void OutputFile::reserve(std::uint64_t bytes) {
+#if defined(FALLOC_FL_KEEP_SIZE)
+  // The length stays that of what is written, so that a run that is killed leaves no zeros.
+  static_cast<void>(
+      fallocate(fileno(file_), FALLOC_FL_KEEP_SIZE, static_cast<off_t>(bytes_), static_cast<off_t>(bytes)));
+#endif
+}
+
 void OutputFile::flush() {
   if (std::fflush(file_) != 0) fail();
 }

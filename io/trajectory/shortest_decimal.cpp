@@ -3,8 +3,14 @@
 #include <array>
 #include <bit>
 #include <charconv>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
+
+#include "core/base/kernel_set.hpp"
+#include "io/trajectory/decimal_batch.hpp"
+#include "io/trajectory/decimal_scale.hpp"
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
@@ -23,45 +29,16 @@ char* write_by_library(char* out, Number value) {
 
 __extension__ using Wide = unsigned __int128;
 
-// The format of a number c * 2^q, where c is a whole number of fraction_bits + 1 bits.
+// Makes the 7 to 9 digits of a float 15 to 17.
 template <class Number>
-struct Parts;
-
+constexpr std::uint64_t lift = 1;
 template <>
-struct Parts<double> {
-  using Bits = std::uint64_t;
-  static constexpr int fraction_bits = 52, exponent_bits = 11;
-  static constexpr std::uint64_t lift = 1;
-};
-
-template <>
-struct Parts<float> {
-  using Bits = std::uint32_t;
-  static constexpr int fraction_bits = 23, exponent_bits = 8;
-  static constexpr std::uint64_t lift = 100'000'000;  // makes 7 to 9 digits 15 to 17
-};
-
-// The scale of all numbers in [2^b, 2^(b+1)). Let 10^k be the largest power of ten with 10^k <= 2^q. Then c * 2^q is
-// c * five / 2^shift in units of 10^k, where five = 5^-k has less than 64 bits, so that the product is exact.
-struct Binade {
-  std::uint64_t five;
-  int shift;
-  int exponent;  // of ten, of the first digit of a number of 17 digits
-};
-
-constexpr int first_binade = -14, binades = 38;  // from below 1e-4 to beyond 1e7
+constexpr std::uint64_t lift<float> = 100'000'000;
 
 template <class Number>
 constexpr std::array<Binade, binades> make_binades() {
   std::array<Binade, binades> all{};
-  int lifted = 0;
-  for (std::uint64_t lift = Parts<Number>::lift; lift > 1; lift /= 10) ++lifted;
-  for (int j = 0; j < binades; ++j) {
-    const int q = first_binade + j - Parts<Number>::fraction_bits;
-    const int k = (q * 1'262'611) >> 22;  // log10(2) * q, rounded down
-    all[static_cast<std::size_t>(j)] = {1, k - q, k + 16 - lifted};
-    for (int i = k; i < 0; ++i) all[static_cast<std::size_t>(j)].five *= 5;
-  }
+  for (int j = 0; j < binades; ++j) all[static_cast<std::size_t>(j)] = make_binade<Number>(first_binade + j);
   return all;
 }
 
@@ -109,28 +86,30 @@ __m128i sixteen_digits(std::uint64_t number) {
   return _mm_or_si128(part, _mm_slli_epi16(_mm_sub_epi16(twos, _mm_mullo_epi16(part, _mm_set1_epi16(10))), 8));
 }
 
-// The shortest decimal of a number, d.ddd * 10^exponent.
+// The shortest decimal of a number, d.ddd * 10^exponent, as text.
 struct Decimal {
-  std::uint64_t first;  // digit
-  __m128i others;       // the next sixteen digits, a byte each
+  std::uint64_t front;  // the first eight digits
+  __m128i others;       // the sixteen digits behind the first
   int digits;           // up to the last that is not 0
   int exponent;
 };
 
 template <class Number>
 Decimal decimal_of(std::uint64_t c, const Binade& binade) {
-  constexpr std::uint64_t ten_to_16 = 10'000'000'000'000'000, lift = Parts<Number>::lift;
-  std::uint64_t number = shortest(c, binade) * lift;
-  int exponent = binade.exponent;
-  for (int least_digits = lift > 1 ? 15 : 16; least_digits < 17; ++least_digits) {
+  constexpr std::uint64_t ten_to_16 = 10'000'000'000'000'000;
+  std::uint64_t number = shortest(c, binade) * lift<Number>;
+  int exponent = binade.unit + (lift<Number> > 1 ? 8 : 16);
+  for (int least_digits = lift < Number >> 1 ? 15 : 16; least_digits < 17; ++least_digits) {
     const bool lacks_one = number < ten_to_16;
     number += mask(lacks_one) & (9 * number);
     exponent -= static_cast<int>(lacks_one);
   }
   const std::uint64_t first = number / ten_to_16;
-  const __m128i others = sixteen_digits(number - first * ten_to_16);
-  const auto zeros = static_cast<unsigned>(_mm_movemask_epi8(_mm_cmpeq_epi8(others, _mm_setzero_si128())));
-  return {first, others, static_cast<int>(std::bit_width(((~zeros & 0xffffU) << 1) | 1U)), exponent};
+  const __m128i digits = sixteen_digits(number - first * ten_to_16);
+  const auto zeros = static_cast<unsigned>(_mm_movemask_epi8(_mm_cmpeq_epi8(digits, _mm_setzero_si128())));
+  const __m128i others = _mm_or_si128(digits, _mm_set1_epi8('0'));
+  const std::uint64_t front = (first + '0') | (static_cast<std::uint64_t>(_mm_cvtsi128_si64(others)) << 8);
+  return {front, others, static_cast<int>(std::bit_width(((~zeros & 0xffffU) << 1) | 1U)), exponent};
 }
 
 // How the first eight characters of a number of this exponent are made of its first eight digits.
@@ -139,8 +118,6 @@ struct Point {
   int shift;                          // of the digits after it, in bits
   int zeros;                          // before the first digit
 };
-
-constexpr int first_exponent = -4, exponents = 11;
 
 constexpr std::uint64_t first_bytes(int count) {
   return count == 8 ? ~std::uint64_t{0} : (std::uint64_t{1} << 8 * count) - 1;
@@ -169,10 +146,9 @@ char* write_with_point(char* out, bool negative, const Decimal& decimal) {
   *out = '-';
   out += static_cast<int>(negative);
   const Point& point = all_points[static_cast<unsigned>(decimal.exponent - first_exponent)];
-  const __m128i others = _mm_or_si128(decimal.others, _mm_set1_epi8('0'));
-  const std::uint64_t digits = (decimal.first + '0') | (static_cast<std::uint64_t>(_mm_cvtsi128_si64(others)) << 8);
-  const std::uint64_t front = (digits & point.before) | point.text | ((digits << point.shift) & point.after);
-  _mm_storeu_si128(reinterpret_cast<__m128i*>(out + point.zeros + 2), others);
+  const std::uint64_t front =
+      (decimal.front & point.before) | point.text | ((decimal.front << point.shift) & point.after);
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(out + point.zeros + 2), decimal.others);
   std::memcpy(out, &front, sizeof front);
   const int whole_digits = decimal.exponent + 1;
   return out + (decimal.digits <= whole_digits ? whole_digits : decimal.digits + 1 + point.zeros);
@@ -180,7 +156,7 @@ char* write_with_point(char* out, bool negative, const Decimal& decimal) {
 
 template <class Number>
 char* write(char* out, Number value) {
-  using P = Parts<Number>;
+  using P = BinaryFormat<Number>;
   constexpr typename P::Bits one = 1;
   const auto bits = std::bit_cast<typename P::Bits>(value);
   const auto biased = static_cast<unsigned>((bits >> P::fraction_bits) & ((one << P::exponent_bits) - 1));
@@ -192,6 +168,19 @@ char* write(char* out, Number value) {
   return write_with_point(out, (bits >> (P::fraction_bits + P::exponent_bits)) != 0, decimal);
 }
 
+// A number whose digits were found with those of others.
+template <class Number>
+char* write(char* out, const DecimalBatch<Number>& batch, std::size_t k) {
+  const auto& [exponent, zeros] = batch.scales[k];
+  const char* const text = batch.texts[k].data() + DecimalBatch<Number>::digits_at - zeros;
+  Decimal decimal{0, _mm_loadu_si128(reinterpret_cast<const __m128i*>(text + 1)),
+                  static_cast<int>(std::bit_width(unsigned{batch.nonzero[k]})) + 1 + zeros,
+                  static_cast<int>(exponent) + first_exponent};
+  std::memcpy(&decimal.front, text, sizeof decimal.front);
+  if (!can_have_point(decimal)) return write_shortest(out, batch.numbers[k]);
+  return write_with_point(out, std::signbit(batch.numbers[k]), decimal);
+}
+
 #else
 
 template <class Number>
@@ -199,7 +188,17 @@ char* write(char* out, Number value) {
   return write_by_library(out, value);
 }
 
+template <class Number>
+char* write(char* out, const DecimalBatch<Number>& batch, std::size_t k) {
+  return write_by_library(out, batch.numbers[k]);
+}
+
 #endif
+
+template <class Number>
+void convert_baseline(DecimalBatch<Number>& batch) {
+  for (auto& scale : batch.scales) scale = {DecimalBatch<Number>::unconverted, 0};
+}
 
 }  // namespace
 
@@ -209,6 +208,22 @@ char* write_shortest(char* out, double value) {
 
 char* write_shortest(char* out, float value) {
   return write(out, value);
+}
+
+template <class Number>
+DecimalKernel<Number> choose_decimal_kernel() {
+  if (kernel_set() == KernelSet::avx2) return convert_avx2;
+  return convert_baseline<Number>;
+}
+template DecimalKernel<double> choose_decimal_kernel();
+template DecimalKernel<float> choose_decimal_kernel();
+
+char* write_decimal(char* out, const DecimalBatch<double>& batch, std::size_t k) {
+  return write(out, batch, k);
+}
+
+char* write_decimal(char* out, const DecimalBatch<float>& batch, std::size_t k) {
+  return write(out, batch, k);
 }
 
 }  // namespace carom

@@ -8,10 +8,14 @@
 #include <concepts>
 #include <cstring>
 #include <limits>
+#include <optional>
+#include <type_traits>
 #include <utility>
 
+#include "core/base/huge_pages.hpp"
 #include "core/base/same_bits.hpp"
 #include "core/scene/disk_group.hpp"
+#include "io/trajectory/decimal_batch.hpp"
 #include "io/trajectory/disk_selection.hpp"
 #include "io/trajectory/shortest_decimal.hpp"
 #include "io/trajectory/single_precision.hpp"
@@ -41,6 +45,12 @@ class TextWriter {
   void add_number(Number value) {
     *end_ = ' ';
     end_ = write_shortest(end_ + 1, value);
+  }
+  // The same, of a number of a batch.
+  template <class Number>
+  void add_number(const DecimalBatch<Number>& batch, std::size_t k) {
+    *end_ = ' ';
+    end_ = write_decimal(end_ + 1, batch, k);
   }
   template <std::integral Number>
   void add_number(Number value) {
@@ -94,6 +104,20 @@ class RepeatedNumbers {
   std::size_t bytes_ = 0;
 };
 
+// The smallest id if all ids from there to the largest exist once, as if no disk has left.
+std::optional<DiskId> first_of_all(const std::vector<DiskId>& id) {
+  if (id.empty()) return {};
+  DiskId first = id.front();
+  for (const DiskId one : id) first = std::min(first, one);
+  std::vector<bool> found(id.size());
+  for (const DiskId one : id) {
+    if (one - first >= id.size()) return {};
+    found[one - first] = true;
+  }
+  if (std::find(found.begin(), found.end(), false) != found.end()) return {};  // one occurs twice, in a damaged file
+  return first;
+}
+
 // The constant part of each frame's second line.
 std::string lattice_text(const XyzPlan& plan) {
   const std::string width = number_text(plan.box.width);
@@ -117,8 +141,15 @@ FileMark XyzWriter::mark() {
   return {file_.name(), frames_, file_.bytes()};
 }
 
-// Sets row_of_disk_ and returns the number of rows. The order by id is freed before rows take memory.
+// Sets row_of_disk_ and returns the number of rows. The order by id, which takes longer and is needed only if not all
+// disks are there, is freed before rows take memory.
 std::size_t XyzWriter::number_rows(const Disks& disks) {
+  const std::optional<DiskId> first = plan_.select.all() ? first_of_all(disks.id) : std::nullopt;
+  if (first) {
+    row_of_disk_.resize(disks.size());
+    std::transform(disks.id.begin(), disks.id.end(), row_of_disk_.begin(), [&](DiskId id) { return id - *first; });
+    return disks.size();
+  }
   std::vector<std::size_t> order = by_id(disks);
   if (!plan_.select.all()) {
     std::erase_if(order, [&](std::size_t i) { return !is_selected(plan_.select, disks, i); });
@@ -131,7 +162,7 @@ std::size_t XyzWriter::number_rows(const Disks& disks) {
 // Goes through the disks in order of storage, where each disk costs one cache miss, that of its row. In order of id it
 // would cost one for each column.
 void XyzWriter::fill_rows(const Disks& disks, const BlockRunner& run) {
-  rows_.resize(number_rows(disks));
+  grow_in_huge_pages(rows_, number_rows(disks));
   run((disks.size() + rows_of_block - 1) / rows_of_block, [&](std::size_t b) {
     const std::size_t end = std::min((b + 1) * rows_of_block, disks.size());
     for (std::size_t i = b * rows_of_block; i < end; ++i) {
@@ -155,16 +186,20 @@ void XyzWriter::write_lines(const Disks& disks, std::size_t begin, std::size_t e
 template <class Precision>
 void XyzWriter::add_lines(const Disks& disks, std::size_t begin, std::size_t end, Precision in_precision,
                           Lines& lines) const {
+  using Number = std::invoke_result_t<Precision, double>;
+  using Batch = DecimalBatch<Number>;
+  constexpr std::size_t numbers_of_row = 4, rows_of_batch = Batch::size / numbers_of_row;
+  const DecimalKernel<Number> convert = choose_decimal_kernel<Number>();
+  Batch batch;
   TextWriter line(lines.text.get());
   RepeatedNumbers radius_and_mass;
-  for (std::size_t k = begin; k < end; ++k) {
-    const Row& row = rows_[k];
+  const auto add_line = [&](const Row& row, std::size_t number) {
     line.add("X");
-    line.add_number(in_precision(row.x));
-    line.add_number(in_precision(row.y));
+    line.add_number(batch, number);
+    line.add_number(batch, number + 1);
     line.add(" 0");
-    line.add_number(in_precision(row.vx));
-    line.add_number(in_precision(row.vy));
+    line.add_number(batch, number + 2);
+    line.add_number(batch, number + 3);
     line.add(" 0");
     radius_and_mass.add_to(line, disks.radius_of(row.place), disks.mass_of(row.place));
     line.add_number(row.id);
@@ -176,6 +211,17 @@ void XyzWriter::add_lines(const Disks& disks, std::size_t begin, std::size_t end
     }
     if (plan_.spins) line.add_number(in_precision(disks.spin_of(row.place)));
     line.add("\n");
+  };
+  for (std::size_t first = begin; first < end; first += rows_of_batch) {
+    const std::size_t rows = std::min(rows_of_batch, end - first);
+    for (std::size_t k = 0; k < rows; ++k) {
+      const Row& row = rows_[first + k];
+      const std::array<Number, numbers_of_row> numbers = {in_precision(row.x), in_precision(row.y),
+                                                          in_precision(row.vx), in_precision(row.vy)};
+      std::copy(numbers.begin(), numbers.end(), &batch.numbers[numbers_of_row * k]);
+    }
+    convert(batch);
+    for (std::size_t k = 0; k < rows; ++k) add_line(rows_[first + k], numbers_of_row * k);
   }
   lines.bytes = static_cast<std::size_t>(line.end() - lines.text.get());
 }
@@ -208,6 +254,9 @@ void XyzWriter::write_blocks(const Disks& disks, const BlockRunner& run) {
   written_.resize(made_.size());
   std::size_t held = 0;  // of written_
   const auto write_held = [&] {
+    std::size_t bytes = 0;
+    for (std::size_t b = 0; b < held; ++b) bytes += written_[b].bytes;
+    file_.reserve(bytes);
     for (std::size_t b = 0; b < held; ++b) file_.write({written_[b].text.get(), written_[b].bytes});
   };
   for (std::size_t first = 0; first < blocks; first += blocks_at_once) {

@@ -36,6 +36,23 @@ TEST(OutputFile, IsGoneOnWithToTheByte) {
   EXPECT_NO_THROW(check_at_least(base, 0)) << "a folder, such as that of a movie's frames";
 }
 
+// What is reserved and not written is no part of the file.
+TEST(OutputFile, RoomIsReservedBehindTheText) {
+  const test::TestFolder folder("carom_file_reserved");
+  const std::string path = folder.path() / "trajectory.xyz";
+  {
+    OutputFile file(path);
+    file.write("12");
+    file.reserve(1'000'000);
+    file.write("345");
+    file.flush();
+    EXPECT_EQ(fs::file_size(path), 5U);
+  }
+  EXPECT_EQ(test::text_of(path), "12345");
+  OutputFile pipe("/dev/null");
+  EXPECT_NO_THROW(pipe.reserve(1'000'000)) << "no room can be reserved there";
+}
+
 // Data that fit into the buffer are written when the file is closed.
 TEST(OutputFile, AFullDiskIsSeenWhenItIsClosed) {
   EXPECT_THROW(write_file("/dev/full", "a"), RunError);
