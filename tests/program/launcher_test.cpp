@@ -1,5 +1,7 @@
 // The launcher ./carom with stand-ins for its tools, which print their arguments: what it builds, tests and prints.
 #include <filesystem>
+#include <string>
+#include <utility>
 
 #include "tests/support/program_support.hpp"
 
@@ -170,8 +172,13 @@ TEST_F(LongLauncher, ThePaperIsBuiltForOnlyWhereItsResultsAreMadeAnew) {
   tool("dpkg-query", "echo compiler installed; echo latex installed");
   EXPECT_EQ(launch("root/carom paper --quick").out, "['--quick']\n");
   EXPECT_FALSE(fs::exists(at("root/built")));
-  EXPECT_EQ(launch("root/carom paper --full counts").out, "['--full', 'counts']\n");
-  EXPECT_TRUE(fs::exists(at("root/built")));
+  const std::pair<std::string, std::string> anew[] = {{"--full counts", "['--full', 'counts']\n"},
+                                                      {"--full=counts", "['--full=counts']\n"}};
+  for (const auto& [words, told] : anew) {
+    fs::remove(at("root/built"));
+    EXPECT_EQ(launch("root/carom paper " + words).out, told);
+    EXPECT_TRUE(fs::exists(at("root/built"))) << words;
+  }
 }
 
 TEST_F(Launcher, ItsOwnCommandsHaveHelp) {
