@@ -9,10 +9,10 @@ static const char scene[] =
     "packing_fraction = 0.3\n"
     "[[disks]]\n"
     "count = 500\n"
-                            "positions = \"random\"\n"
+    "positions = \"random\"\n"
     "velocities = { maxwell = 1.0 }\n"
     "radius = 0.5\n"
-                            "mass = 1.0\n"
+    "mass = 1.0\n"
     "[run]\n"
     "t_end = 10.0\n";
 
