@@ -7,12 +7,14 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <numeric>
 #include <stdexcept>
 #include <system_error>
 
 #include "app/run/held_signals.hpp"
 #include "core/base/check.hpp"
 #include "core/base/wall_clock.hpp"
+#include "core/disks/disk_columns.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/scene_output.hpp"
 #include "core/scene/size_law.hpp"
@@ -105,12 +107,11 @@ Disks moved(const Disks& disks, const Scene& scene, double time) {
 // The mean number of disks of the run, those of sources at any place in the box; at most most_rehearsed.
 Disks typical_disks(const Scene& scene, const State& state, double count) {
   const auto wanted = static_cast<std::size_t>(std::clamp(count, 0.0, static_cast<double>(most_rehearsed)));
-  Disks disks = state.disks;
-  if (disks.size() > wanted) {
-    std::vector<unsigned char> gone(disks.size(), 0);
-    std::fill(gone.begin() + static_cast<std::ptrdiff_t>(wanted), gone.end(), 1);
-    remove_marked(disks, gone);
-  }
+  // Only these are copied: a whole copy may need more memory than the run.
+  std::vector<std::size_t> places(std::min(wanted, state.disks.size()));
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  Disks disks;
+  gather_disks(state.disks, places, disks);
   if (scene.sources.empty()) return disks;
   const Source& source = scene.sources.front();
   for (Count k = 0; disks.size() < wanted; ++k) {
@@ -319,8 +320,7 @@ double remembered_bytes(const Scene& scene, double frames, double disks) {
   for (const std::string& plot : scene.output.plots) {
     bytes += frames * (plot == "velocity" ? velocity_bytes : energy_bytes);
   }
-  const bool rounds = scene.output.trajectory != TrajectoryFormat::none && scene.box.has(SideKind::periodic);
-  return rounds ? bytes + rounds_bytes * disks : bytes;
+  return shows_rounds(scene) ? bytes + rounds_bytes * disks : bytes;
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +12,7 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/messages.hpp"
 #include "app/run/check_report.hpp"
+#include "app/run/trial_memory.hpp"
 #include "core/base/check.hpp"
 #include "core/base/input_message.hpp"
 #include "core/base/short_number.hpp"
@@ -21,7 +22,6 @@
 #include "core/load/method_rates.hpp"
 #include "core/load/scene_scales.hpp"
 #include "core/load/scene_warnings.hpp"
-#include "core/measure/invariants.hpp"
 #include "core/scene/scene_output.hpp"
 #include "core/start/initial_state.hpp"
 #include "core/step/step_start.hpp"
@@ -69,24 +69,6 @@ State ungrown_state(const Scene& scene) {
   nothing.step = [](Disks&, const Domain&, const std::vector<double>&) { return GrowthTally{}; };
   const auto nowhere = [](const Scene&, Disks&, PlacementGrid&, const std::vector<std::uint32_t>&) {};
   return initial_state(scene, nowhere, nothing);
-}
-
-// The most memory that this process has used so far.
-double peak_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024.0 * static_cast<double>(usage.ru_maxrss);
-}
-
-// Uses the memory that a run needs besides its steps: a copy of the disks for its frames, their order for sums, and a
-// search for the largest overlap at the end.
-void look_as_a_run_does(const Engine& engine, const Scene& scene) {
-  const Disks& disks = engine.state().disks;
-  if (wants_frames(scene.output)) {
-    const Disks frame = disks;
-    momentum_of(frame);
-  }
-  max_overlap(disks, scene.box);
 }
 
 // If sources fill the box, the first steps are not representative: their time for the present disks is scaled to the
@@ -162,13 +144,16 @@ void try_steps(Engine& engine, const Scene& scene, Findings& f) {
   const bool told_by_collisions = trial.slowing > 0.0;
   if (engine.state().time < scene.run.t_end && !told_by_collisions) f.step_seconds *= share;
   f.population.mean *= share;
-  look_as_a_run_does(engine, scene);
-  f.memory_bytes = peak_bytes();
   if (f.population.end > f.population.start) {
     f.step_seconds = seconds_with_sources(scene, f.population, f.step_seconds);
-    f.memory_bytes += least_memory(scene.run.method, static_cast<Count>(f.population.end - f.population.start),
-                                   scene.physics.surfaces.are_rough());
   }
+}
+
+// That of disks which sources will add; bytes.
+double memory_of_newcomers(const Scene& scene, const Population& population) {
+  if (!(population.end > population.start)) return 0.0;
+  return least_memory(scene.run.method, static_cast<Count>(population.end - population.start),
+                      scene.physics.surfaces.are_rough());
 }
 
 // Reports sources that had no room in the trial, if there was enough of it: a few disks may well wait for a while.
@@ -181,13 +166,19 @@ std::vector<std::string> waiting_in_trial(const Scene& scene, const State& now) 
 
 void try_run(const Scene& scene, const EngineChoice& choice, State initial, Findings& found) {
   const auto engine = within_memory(scene, [&] { return make_engine(choice, scene, std::move(initial)); });
+  const BlockRunner run = make_block_runner(choice);
+  if (!wants_frames(scene.output) && !scene.analysis.any()) engine->forget_paths();
   within_memory(scene, [&] {
+    std::optional<TrialFrames> frames(std::in_place, scene, run);
+    frames->make(*engine);
     try_steps(*engine, scene, found);
+    frames->make(*engine);
+    frames.reset();  // files are rehearsed with buffers of their own
     for (const std::string& trouble : waiting_in_trial(scene, engine->progress())) found.troubles.push_back(trouble);
-    const double before = peak_bytes();
     found.outputs = foresee_outputs(scene, choice, *engine, found.population, found.step_seconds);
     for (const std::string& trouble : found.outputs.missing) found.troubles.push_back(trouble);
-    found.memory_bytes += peak_bytes() - before + found.outputs.ffmpeg_bytes;  // with pictures and an analysis
+    end_in_memory(*engine, scene, run);
+    found.memory_bytes = peak_bytes() + memory_of_newcomers(scene, found.population) + found.outputs.ffmpeg_bytes;
   });
 }
 

@@ -34,6 +34,21 @@ bool wants_files(const Scene& scene) {
   return wants_frames(scene.output) || scene.analysis.any() || scene.output.checkpoint > 0.0;
 }
 
+bool shows_rounds(const Scene& scene) {
+  return scene.output.trajectory != TrajectoryFormat::none && !scene.box.shear.acts() &&
+         (scene.box.periodic_x() || scene.box.periodic_y());
+}
+
+// The group column is written if there are several groups, sources included.
+XyzPlan xyz_plan(const Scene& scene, const DisplacementTally* rounds) {
+  XyzPlan plan{scene.box, scene.output.select};
+  plan.spins = scene.physics.surfaces.are_rough();
+  plan.single = scene.output.single_precision;
+  if (has_several_groups(scene)) plan.group_ends = ends_of_groups(scene);
+  if (shows_rounds(scene)) plan.rounds = rounds;
+  return plan;
+}
+
 RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, BlockRunner run, DiskId next_id)
     : scene_(scene),
       folder_(folder),
@@ -42,11 +57,11 @@ RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, BlockRunn
       plot_velocity_(has_plot(scene.output, "velocity")),
       plot_energy_(has_plot(scene.output, "energy") && !velocities_are_drawn(scene)) {
   if (scene.output.trajectory == TrajectoryFormat::xyz) {
-    trajectory_ = std::make_unique<XyzWriter>(folder.path("trajectory.xyz"), xyz_plan());
+    trajectory_ = std::make_unique<XyzWriter>(folder.path("trajectory.xyz"), xyz_plan(scene, &rounds_));
   }
   if (scene.output.trajectory == TrajectoryFormat::h5md) {
-    h5md_ =
-        std::make_unique<H5mdWriter>(folder.path("trajectory.h5"), scene, shows_rounds() ? &rounds_ : nullptr, next_id);
+    h5md_ = std::make_unique<H5mdWriter>(folder.path("trajectory.h5"), scene, shows_rounds(scene) ? &rounds_ : nullptr,
+                                         next_id);
   }
   if (scene.output.series) series_ = std::make_unique<SeriesWriter>(folder.path("series.csv"), scene);
   if (scene.analysis.any()) analysis_ = std::make_unique<RunningAnalysis>(scene, &folder, run_);
@@ -70,10 +85,10 @@ RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, BlockRunn
   if (from.trajectory) {
     const std::string path = folder.path(from.trajectory->name);
     if (scene.output.trajectory == TrajectoryFormat::h5md) {
-      const DisplacementTally* const rounds = shows_rounds() ? &rounds_ : nullptr;
+      const DisplacementTally* const rounds = shows_rounds(scene) ? &rounds_ : nullptr;
       h5md_ = std::make_unique<H5mdWriter>(path, scene, from.trajectory->frames, rounds, next_id);
     } else {
-      trajectory_ = std::make_unique<XyzWriter>(path, xyz_plan(), *from.trajectory);
+      trajectory_ = std::make_unique<XyzWriter>(path, xyz_plan(scene, &rounds_), *from.trajectory);
     }
   }
   if (from.series) series_ = std::make_unique<SeriesWriter>(folder.path(from.series->file.name), scene, *from.series);
@@ -90,22 +105,6 @@ RunOutputs::RunOutputs(const Scene& scene, const OutputFolder& folder, BlockRunn
   style.high = from.movie->high;
   style.time_decimals = from.movie->time_decimals;
   movie_ = std::make_unique<MovieWriter>(folder_.unfinished(), style, *from.movie);
-}
-
-bool RunOutputs::shows_rounds() const {
-  // In a shear flow rounds have no meaning: a disk that crosses the top and comes back has moved along x.
-  return scene_.output.trajectory != TrajectoryFormat::none && !scene_.box.shear.acts() &&
-         (scene_.box.periodic_x() || scene_.box.periodic_y());
-}
-
-// The group column is written if there are several groups, sources included.
-XyzPlan RunOutputs::xyz_plan() const {
-  XyzPlan plan{scene_.box, scene_.output.select};
-  plan.spins = scene_.physics.surfaces.are_rough();
-  plan.single = scene_.output.single_precision;
-  if (has_several_groups(scene_)) plan.group_ends = ends_of_groups(scene_);
-  if (shows_rounds()) plan.rounds = &rounds_;
-  return plan;
 }
 
 OutputMark RunOutputs::mark_without_movie() {
@@ -131,12 +130,12 @@ OutputMark RunOutputs::mark() {
 
 bool RunOutputs::follows() const {
   const bool displacement = scene_.analysis.wants(Quantity::displacement);
-  return shows_rounds() || (displacement && (scene_.box.periodic_x() || scene_.box.periodic_y()));
+  return shows_rounds(scene_) || (displacement && (scene_.box.periodic_x() || scene_.box.periodic_y()));
 }
 
 void RunOutputs::follow(const Engine& engine, double t) {
   if (analysis_) analysis_->follow(engine, t);
-  if (!shows_rounds()) return;
+  if (!shows_rounds(scene_)) return;
   if (follow_disks(rounds_, engine, scene_, t) && t == engine.progress().time) {
     Disks room;
     look_at(rounds_, *engine.pieces_at(t, room), scene_.box);
@@ -147,7 +146,7 @@ void RunOutputs::frame(const DisksInPieces& disks, const State& now) {
   const double time = disks.time();
   ++frames_;
   last_time_ = time;
-  if (shows_rounds()) follow_rounds(rounds_, disks, scene_.box, run_);
+  if (shows_rounds(scene_)) follow_rounds(rounds_, disks, scene_.box, run_);
   if (trajectory_) trajectory_->write(disks, run_);
   SeriesRow row{};
   if (series_) {

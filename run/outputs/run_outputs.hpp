@@ -23,6 +23,13 @@ namespace carom {
 // Whether a scene asks for any file at all.
 bool wants_files(const Scene& scene);
 
+// Does the trajectory tell how often disks have gone round the periodic sides? In a shear flow rounds have no meaning:
+// a disk that crosses the top and comes back has moved along x.
+bool shows_rounds(const Scene& scene);
+
+// What trajectory.xyz holds. rounds: those of its disks, if it shows them; the plan refers to them.
+XyzPlan xyz_plan(const Scene& scene, const DisplacementTally* rounds);
+
 // The warnings of a run if these programs are not installed.
 inline constexpr const char* without_ffmpeg =
     "ffmpeg is not installed: the movie becomes frames/frame_000001.png and so on";
@@ -76,8 +83,6 @@ class RunOutputs {
 
  private:
   OutputMark mark_without_movie();
-  bool shows_rounds() const;
-  XyzPlan xyz_plan() const;
   void remove_old_pictures();
   void draw_plots();
   bool draw(const std::function<bool()>& plot);  // false: there is no gnuplot

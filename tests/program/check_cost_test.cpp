@@ -1,5 +1,7 @@
 // carom check predicts the cost of a run: time for the steps after the first, and the memory of ffmpeg in addition to
 // its own.
+#include <sys/resource.h>
+
 #include <cmath>
 
 #include "app/run/check_foresight.hpp"
@@ -53,6 +55,20 @@ TEST_F(LongCheckCost, AMovieNeedsFfmpegsMemoryToo) {
   EXPECT_GT(bytes(movie), bytes("") + 60e6 + 70.0 * 640.0 * 480.0);
   EXPECT_THAT(carom("check small.toml" + movie).out, HasSubstr(", 81.5 MB of it for ffmpeg"));
   EXPECT_THAT(carom("check small.toml").out, Not(HasSubstr("ffmpeg")));
+}
+
+// A trajectory holds a line of each disk beside the steps. The peak of the programs that this one has started is that
+// of the run, as no other is as large.
+TEST_F(LongCheckCost, ARunNeedsAsMuchMemoryAsForeseen) {
+  const std::string gas = CAROM_SOURCE_DIR
+      "/scenes/gas_million.toml --t-end 0.02 --set disks.0.count=300000 --set output.every=0.01 --set "
+      "'output.trajectory=\"xyz\"' ";
+  ASSERT_EQ(carom("run " + gas + "--quiet -o out").status, 0);
+  rusage usage{};
+  getrusage(RUSAGE_CHILDREN, &usage);
+  const double peak = 1024.0 * static_cast<double>(usage.ru_maxrss);
+  const double foreseen = Json::parse(carom("check " + gas + "--json").out)["memory_bytes"].get<double>();
+  EXPECT_NEAR(foreseen / peak, 1.0, 0.07);
 }
 
 // A source emits 2000 disks into an empty box, and the trial sees some of them: the checkpoint has 36 bytes for each
