@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "app/run/held_signals.hpp"
+#include "app/run/picture_sizes.hpp"
 #include "core/base/check.hpp"
 #include "core/base/wall_clock.hpp"
 #include "core/disks/disk_columns.hpp"
@@ -22,13 +23,10 @@
 #include "io/files/checkpoint_names.hpp"
 #include "io/files/child_process.hpp"
 #include "io/files/scratch_folder.hpp"
-#include "io/movie/frame.hpp"
 #include "io/movie/movie.hpp"
 #include "io/plots/gnuplot.hpp"
-#include "io/plots/plot.hpp"
 #include "run/loop/frame_schedule.hpp"
 #include "run/outputs/run_outputs.hpp"
-#include "run/recordings/run_view.hpp"
 
 namespace carom {
 
@@ -49,9 +47,6 @@ constexpr std::size_t most_sampled = 2'000'000;
 // packed, in double and single precision; and bytes of a frame in series.csv and in a movie.
 constexpr double xyz_bytes = 134.0, xyz_spin_bytes = 21.0, xyz_single_bytes = 99.0, xyz_single_spin_bytes = 12.0,
                  h5md_bytes = 32.0, h5md_single_bytes = 15.0, row_bytes = 200.0, movie_bytes = 2e4;
-// Bytes in gnuplot's SVG: of a panel's axes, of a curve's name and style, and of a point.
-constexpr double panel_bytes = 17e3, curve_bytes = 450.0, point_bytes = 15.0;
-
 // Processor time of this process and of those for which it has waited.
 double cpu_seconds_with_children() {
   double seconds = 0.0;
@@ -187,49 +182,6 @@ double plot_seconds(const fs::path& folder) {
   return plot_energy((folder / "energy.svg").string(), "", record) ? seconds_since(start) : 0.0;
 }
 
-// Bytes and time of view.html, which reads the trajectory twice; numbers from docs/viewer.md.
-void add_page(const Scene& scene, double shown, OutputForesight& f) {
-  constexpr double page_bytes = 66e3, disk_bytes = 2.0, xyz_s = 1.7e-6, h5md_s = 0.4e-6;
-  const double disk_frames = shown * static_cast<double>(f.frames);
-  const auto most = static_cast<double>(ViewWork{}.most_bytes);
-  f.files.emplace_back("view.html", std::min(most, page_bytes + disk_bytes * disk_frames));
-  f.files_s += disk_frames * (scene.output.trajectory == TrajectoryFormat::xyz ? xyz_s : h5md_s);
-}
-
-// Memory of ffmpeg with libx264, which keeps some forty frames; a fit to 83 MB with 640 x 480 pixels, 140 with 1280 x
-// 720, 1263 with 4096 x 4096 and 4547 with 8192 x 8192, on two cores.
-double ffmpeg_bytes(const Scene& scene) {
-  constexpr double at_least = 60e6, pixel_bytes = 70.0;
-  if (!scene.output.movie || !finds_ffmpeg()) return 0.0;
-  const FrameLayout layout = frame_layout(frame_style(scene, scene.output.look, {}));
-  return at_least + pixel_bytes * static_cast<double>(layout.width) * static_cast<double>(layout.height);
-}
-
-// The form of a plot over frames: the number of panels, and of curves in all of them.
-struct PlotForm {
-  double panels, curves;
-};
-
-// Two components of the velocity, each with a curve for each disk, or with the edges of bands and the lines along them.
-// The energy: total, kinetic, and its other parts.
-PlotForm plot_form(const Scene& scene, std::string_view plot, double disks) {
-  if (plot != "velocity") {
-    return {1.0, 2.0 + static_cast<double>(scene.physics.gravity.acts()) +
-                     static_cast<double>(scene.physics.surfaces.are_rough())};
-  }
-  constexpr double bands = velocity_levels / 2;
-  const bool has_bands = disks > static_cast<double>(most_velocity_curves);
-  return {2.0, 2.0 * (has_bands ? 2.0 * bands + static_cast<double>(velocity_levels) : disks)};
-}
-
-void add_plots(const Scene& scene, double disks, OutputForesight& f) {
-  const auto points = static_cast<double>(points_drawn(f.frames));
-  for (const std::string& plot : scene.output.plots) {
-    const PlotForm form = plot_form(scene, plot, disks);
-    f.files.emplace_back(plot + ".svg", panel_bytes * form.panels + (curve_bytes + point_bytes * points) * form.curves);
-  }
-}
-
 // The number of a frame's disks in the group that the trajectory shows; disks from sources all count.
 double disks_shown(const Scene& scene, double disks) {
   const IdRange& ids = scene.output.select.ids;
@@ -343,7 +295,7 @@ OutputForesight foresee_outputs(const Scene& scene, const EngineChoice& choice, 
   if (scene.analysis.any())
     f.samples = moments_shown(scene, scene.analysis.every, scene.run.t_end - scene.analysis.start);
   if (!wants_files(scene)) return f;
-  f.ffmpeg_bytes = ffmpeg_bytes(scene);
+  f.ffmpeg_bytes = memory_of_ffmpeg(scene);
   const double plots = static_cast<double>(scene.output.plots.size()) + quantities_of(scene);
   const bool draws = plots > 0.0 && !find_program("gnuplot").empty();
   if (scene.output.movie && !finds_ffmpeg()) f.missing.emplace_back(without_ffmpeg);
@@ -369,7 +321,7 @@ OutputForesight foresee_outputs(const Scene& scene, const EngineChoice& choice, 
     constexpr double file_bytes = 10e3, table_bytes = 10e3, sample_bytes = 30.0;
     const double each = table_bytes + sample_bytes * static_cast<double>(f.samples);
     f.files.emplace_back("analysis.h5", file_bytes + each * quantities_of(scene));
-    if (draws) f.files.emplace_back("plots of the analysis", quantities_of(scene) * 1.5 * panel_bytes);
+    if (draws) f.files.emplace_back("plots of the analysis", quantities_of(scene) * analysis_plot_bytes);
   }
   if (scene.output.checkpoint > 0.0) {
     const double bytes = checkpoint_bytes(tried.state(), population.end);

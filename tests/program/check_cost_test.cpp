@@ -105,6 +105,21 @@ TEST_F(LongCheckCost, AnAnalysisHasATableForEachQuantity) {
   EXPECT_LT(files["analysis.h5"].get<double>(), 1.7 * real);
 }
 
+// A page of few disks is the viewer, and the plots of series.csv; without these it was foreseen at 0.6 of its size.
+TEST_F(LongCheckCost, APageOfFewDisksIsAsLargeAsForeseen) {
+  for (const std::string series : {"true", "false"}) {
+    const std::string command =
+        CAROM_SOURCE_DIR
+        "/scenes/two_disks.toml --set output.movie=false --set 'output.trajectory=\"xyz\"' --set output.view=true "
+        "--set output.series=" +
+        series;
+    const Json files = Json::parse(carom("check --json " + command).out)["files_bytes"];
+    ASSERT_EQ(carom("run --quiet --force -o out " + command).status, 0);
+    const auto real = static_cast<double>(std::filesystem::file_size(at("out") / "view.html"));
+    EXPECT_NEAR(files["view.html"].get<double>() / real, 1.0, 0.2) << "output.series = " << series;
+  }
+}
+
 // Two panels with curves, or with bands for more than ten disks; a curve of more than 4000 frames has fewer points; the
 // potential energy is one more curve.
 TEST_F(LongCheckCost, PlotsAreAsLargeAsTheirCurves) {
