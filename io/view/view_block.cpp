@@ -1,6 +1,5 @@
 #include "io/view/view_block.hpp"
 
-#include <fmt/format.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -8,8 +7,6 @@
 #include <iterator>
 #include <new>
 #include <utility>
-
-#include "core/base/input_message.hpp"
 
 namespace carom {
 
@@ -60,10 +57,6 @@ std::uint32_t folded(std::uint32_t residual, const ViewAxis& axis) {
   return ((static_cast<std::uint32_t>(value) << 1U) ^ static_cast<std::uint32_t>(value >> 31)) & axis.mask();
 }
 
-std::uint32_t unfolded(std::uint32_t folded_value) {
-  return (folded_value >> 1U) ^ (0U - (folded_value & 1U));
-}
-
 // The last two coordinates of a disk along one axis; `last` is the later one.
 struct Track {
   std::uint32_t last = 0, before = 0;
@@ -95,9 +88,6 @@ struct AxisCode {
 
   std::uint32_t residual(std::uint32_t at, const Track& track) const {
     return folded((at - track.expected(order)) & axis.mask(), axis);
-  }
-  std::uint32_t value(std::uint32_t residual, const Track& track) const {
-    return (track.expected(order) + unfolded(residual)) & axis.mask();
   }
 };
 
@@ -188,122 +178,6 @@ unsigned better_order(const std::vector<ViewFrame>& frames, const std::vector<Ch
   return bits[0] < bits[1] ? 1 : 2;
 }
 
-// Reads the contents of an inflated block.
-class Reading {
- public:
-  explicit Reading(std::string_view bytes) : bytes_(bytes) {}
-  bool good() const { return good_; }
-  std::size_t left() const { return bytes_.size() - at_; }
-  std::uint32_t byte() {
-    if (at_ < bytes_.size()) return static_cast<unsigned char>(bytes_[at_++]);
-    good_ = false;
-    return 0;
-  }
-  std::uint32_t word() {
-    std::uint32_t value = 0;
-    for (unsigned shift = 0; shift < 32; shift += 8) value |= byte() << shift;
-    return value;
-  }
-  std::uint32_t varint() {
-    std::uint32_t value = 0;
-    for (unsigned shift = 0; shift < 35; shift += 7) {
-      const std::uint32_t b = byte();
-      value |= (b & 0x7fU) << (shift & 31U);
-      if (b < 0x80U) return value;
-    }
-    good_ = false;
-    return 0;
-  }
-  // Reads places below `places`.
-  Places runs(std::uint32_t places) {
-    Places all;
-    std::uint64_t end = 0;
-    for (std::uint32_t count = varint(); good_ && count > 0; --count) {
-      const std::uint64_t begin = end + varint();
-      end = begin + varint();
-      good_ = good_ && end <= places;
-      for (std::uint64_t p = begin; good_ && p < end; ++p) all.push_back(static_cast<std::uint32_t>(p));
-    }
-    return all;
-  }
-  std::string_view take(std::size_t count) {
-    good_ = good_ && count <= left();
-    const std::string_view taken = good_ ? bytes_.substr(at_, count) : std::string_view{};
-    at_ += taken.size();
-    return taken;
-  }
-
- private:
-  std::string_view bytes_;
-  std::size_t at_ = 0;
-  bool good_ = true;
-};
-
-// Inflates a stream; if it ends early or has a fault, gives what came before, and returns false.
-bool inflated(std::string_view packed, std::string& to) {
-  z_stream z{};
-  if (inflateInit(&z) != Z_OK) throw std::bad_alloc();
-  std::vector<char> chunk(std::size_t{1} << 16U);
-  z.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));  // zlib does not write to it
-  z.avail_in = static_cast<uInt>(packed.size());
-  int status = Z_OK;
-  while (status == Z_OK) {
-    z.next_out = reinterpret_cast<Bytef*>(chunk.data());
-    z.avail_out = static_cast<uInt>(chunk.size());
-    status = inflate(&z, Z_NO_FLUSH);
-    to.append(chunk.data(), chunk.size() - z.avail_out);
-  }
-  inflateEnd(&z);
-  return status == Z_STREAM_END;
-}
-
-// Reads the places of all frames.
-std::vector<Changes> read_places(Reading& reading, std::uint32_t places, std::vector<ViewFrame>& frames) {
-  std::vector<Changes> changes;
-  Places present;
-  for (ViewFrame& frame : frames) {
-    Places removed = reading.runs(places);
-    changes.push_back({std::move(removed), reading.runs(places)});
-    const Places kept = difference(present, changes.back().removed);
-    const Places& added = changes.back().added;
-    present.clear();
-    std::merge(kept.begin(), kept.end(), added.begin(), added.end(), std::back_inserter(present));
-    frame.place = present;
-  }
-  return changes;
-}
-
-std::array<Residuals, 2> read_residuals(Reading& reading, const ViewAxes& axes, std::size_t count) {
-  std::array<Residuals, 2> residuals;
-  for (Residuals& column : residuals) column.assign(count, 0);
-  for (unsigned byte = 0; byte < std::max(bytes_of(axes[0]), bytes_of(axes[1])); ++byte) {
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      if (byte >= bytes_of(axes[axis])) continue;
-      const std::string_view plane = reading.take(count);
-      for (std::size_t i = 0; i < plane.size(); ++i) {
-        residuals[axis][i] |= std::uint32_t{static_cast<unsigned char>(plane[i])} << (8 * byte);
-      }
-    }
-  }
-  return residuals;
-}
-
-// Computes one axis of all frames. places: number of entries in the table of all disks.
-void follow_residuals(const Residuals& residuals, const std::vector<Changes>& changes, const AxisCode& code,
-                      std::uint32_t places, std::vector<ViewFrame>& frames) {
-  std::vector<Track> tracks(places);
-  std::size_t next = 0;
-  for (std::size_t k = 0; k < frames.size(); ++k) {
-    for (const std::uint32_t p : changes[k].added) tracks[p] = {};
-    for (const std::uint32_t p : frames[k].place) {
-      const std::uint32_t at = code.value(residuals[next++], tracks[p]);
-      frames[k].at[code.number].push_back(at);
-      tracks[p] = {at, tracks[p].last};
-    }
-    for (const std::uint32_t p : changes[k].added) tracks[p].before = tracks[p].last;
-  }
-}
-
 }  // namespace
 
 // Only runs of one byte and Huffman codes: the rest of the residuals is noise, in which a search for longer matches
@@ -351,31 +225,6 @@ ViewBlock pack_view_block(const std::vector<ViewFrame>& frames, std::size_t firs
   block.packed = deflated(bytes);
   block.check = crc_of(block.packed);
   return block;
-}
-
-std::vector<ViewFrame> unpack_view_block(const ViewBlock& block, const ViewAxes& axes, const std::string& name) {
-  const auto damaged = [&](const char* what) {
-    fail_input(name, fmt::format("frames {} to {} are damaged: {}", block.first + 1, block.first + block.frames, what));
-  };
-  std::string bytes;
-  if (crc_of(block.packed) != block.check) damaged("their checksum is another");
-  if (!inflated(block.packed, bytes)) damaged("their stream breaks off");
-  Reading reading(bytes);
-  if (reading.word() != block.frames) damaged("their number is another");
-  const unsigned order = reading.word();
-  const std::uint32_t places = reading.word();
-  if (order < 1 || order > 2) damaged("there is no such order of differences");
-  std::vector<ViewFrame> frames(block.frames);
-  const std::vector<Changes> changes = read_places(reading, places, frames);
-  if (!reading.good()) damaged("their list of disks breaks off");
-  std::size_t count = 0;
-  for (const ViewFrame& frame : frames) count += frame.place.size();
-  const auto residuals = read_residuals(reading, axes, block.residuals);
-  if (!reading.good() || reading.left() != 0 || count != block.residuals) damaged("they are not as long as they say");
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    follow_residuals(residuals[axis], changes, {axis, axes[axis], order}, places, frames);
-  }
-  return frames;
 }
 
 }  // namespace carom

@@ -1,4 +1,4 @@
-// Packed frames of a view file: a block of successive frames, which can be unpacked without other blocks.
+// Packed frames of a view file: a block of successive frames, which viewer/decode.js unpacks without other blocks.
 #pragma once
 
 #include <array>
@@ -37,9 +37,6 @@ struct ViewBlock {
 
 // Packs the frames, whose first one has the number `first`.
 ViewBlock pack_view_block(const std::vector<ViewFrame>& frames, std::size_t first, const ViewAxes& axes);
-
-// Unpacks the frames. Throws InputError, "name: frames A to B are damaged: ..." (frames counted from 1).
-std::vector<ViewFrame> unpack_view_block(const ViewBlock& block, const ViewAxes& axes, const std::string& name);
 
 // Any bytes as a zlib stream, and the CRC-32 of bytes.
 std::string deflated(std::string_view bytes);
