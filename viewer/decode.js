@@ -26,14 +26,14 @@ export async function inflate(bytes) {
 
 // The bytes packed in a text of the page. Throws an Error that says what is wrong with them.
 export async function unpackText(text, length, check) {
-  if (text === null || text.length < 4 * Math.ceil(length / 3)) throw new Error("the file breaks off there");
+  if (text === null || text.length < 4 * Math.ceil(length / 3)) throw new Error("the file ends too early");
   let packed;
   try {
     packed = base64Bytes(text);
   } catch {
-    throw new Error("there are letters that do not belong there");
+    throw new Error("a letter is not base64");
   }
-  if (packed.length !== length || crc32(packed) !== check) throw new Error("their checksum is another");
+  if (packed.length !== length || crc32(packed) !== check) throw new Error("the checksum is wrong");
   return inflate(packed);
 }
 
@@ -54,7 +54,7 @@ class BlockReader {
       value += (b & 127) * 2 ** shift;
       if (b < 128) return value;
     }
-    throw new Error("their list of disks is damaged");
+    throw new Error("the list of disks is wrong");
   }
   // Runs of places as pairs [begin, end).
   runs(places) {
@@ -63,7 +63,7 @@ class BlockReader {
     for (let left = this.varint(); left > 0; --left) {
       const begin = end + this.varint();
       end = begin + this.varint();
-      if (end > places) throw new Error("their list of disks is damaged");
+      if (end > places) throw new Error("the list of disks is wrong");
       runs.push([begin, end]);
     }
     return runs;
@@ -121,14 +121,14 @@ function readAxis(residuals, bits, order, places, { changes, lists }) {
 // frames one after the other.
 export function unpackBlock(bytes, bits, frames, residuals) {
   const reader = new BlockReader(bytes);
-  if (reader.word() !== frames) throw new Error("their number is another");
+  if (reader.word() !== frames) throw new Error("the number of frames is wrong");
   const order = reader.word();
   const places = reader.word();
   const found = readPlaces(reader, frames, places);
   const planes = bits.map((b) => Math.ceil(b / 8));
   const size = found.lists.reduce((sum, list) => sum + list.length, 0);
   if (size !== residuals || reader.at + residuals * (planes[0] + planes[1]) !== bytes.length) {
-    throw new Error("they are not as long as they say");
+    throw new Error("the length of the data is wrong");
   }
   const axes = [new Int32Array(residuals), new Int32Array(residuals)];
   let at = reader.at;

@@ -314,7 +314,7 @@ test("a file that breaks off says from which frame on, and shows what comes befo
   await drawn(page, 0);
   await page.keyboard.press("End");
   await page.waitForFunction(() => document.getElementById("message").textContent.includes("damaged"));
-  assert.equal(await page.textContent("#message"), "Frames 65 to 121 are damaged: the file breaks off there.");
+  assert.equal(await page.textContent("#message"), "Frames 65 to 121 are damaged: the file ends too early.");
   await page.close();
   for (const mark of ['id="head"', 'id="table"', "<main>"]) {
     writeFileSync(cut, text.slice(0, text.indexOf(mark) + 30), "latin1");
@@ -328,8 +328,8 @@ test("a file that breaks off says from which frame on, and shows what comes befo
 test("a changed letter is found, and named with its frames", async () => {
   const text = readFileSync(openPage, "latin1");
   for (const [letter, what] of [
-    ["A", "their checksum is another"],
-    ["!", "there are letters that do not belong there"],
+    ["A", "the checksum is wrong"],
+    ["!", "a letter is not base64"],
   ]) {
     const at = text.indexOf('id="block1"') + 400;
     const flipped = shop.path("flipped.html");
