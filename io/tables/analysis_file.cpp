@@ -20,6 +20,8 @@ namespace {
 // Entries of a chunk; with few of them the file of a short run stays small.
 constexpr hsize_t chunk = 256;
 
+constexpr const char* meaning_of_psi6 = "psi6 of a disk is the mean of exp(6 i angle) over its six nearest neighbours.";
+
 // Datasets of one group, each with its unit.
 class Group {
  public:
@@ -88,8 +90,10 @@ void put_series(Hdf5Output& output, const AnalysisRecord& record, const Scene& s
     const Group group(output, "/displacement");
     group.numbers("mean_square", series.displacement, "length^2");
     group.counts("disks", series.followed);
-    group.say("meaning", std::string("since the first sample; of the disks of that time that are still there") +
-                             (scene.box.shear.acts() ? "; along y alone, across the shear flow" : ""));
+    group.say("meaning",
+              std::string("The mean of (r(t) - r(0))^2 since the first sample, over the disks of that sample that are "
+                          "still in the box.") +
+                  (scene.box.shear.acts() ? " Only displacements along y count, across the shear flow." : ""));
     const DiffusionFit fit = diffusion_of(record, scene);
     group.say("diffusion", fit.value);
     group.say("diffusion_error", fit.error);
@@ -101,13 +105,13 @@ void put_series(Hdf5Output& output, const AnalysisRecord& record, const Scene& s
     put_means(group, series.pressure, series.interval, "energy / length^2");
     group.say(
         "meaning",
-        "(kinetic energy + virial of the collisions and loads in the interval / (2 interval)) / area of the box, or "
-        "of the room between sides that move");
+        "The kinetic energy plus W / (2 interval), over the area. W is the virial of the collisions and loads in the "
+        "interval; the area is that of the box, or between its moving sides.");
   }
   if (plan.wants(Quantity::collision_rate)) {
     const Group group(output, "/collision_rate");
     put_means(group, series.collision_rate, series.interval, "1 / time");
-    group.say("meaning", "collisions with other disks, of one disk, in a unit of time");
+    group.say("meaning", "How often a disk collides with other disks in a unit of time.");
   }
 }
 
@@ -121,7 +125,9 @@ void put_partial(Hdf5Output& output, const AnalysisRecord& record, const Analysi
     group.numbers(("g:" + between).c_str(), curve.g, "1");
     group.counts(("pairs:" + between).c_str(), record.partial[k].counts);
   }
-  group.say("meaning", "over r of /pair_correlation: g of two groups, pairs over those expected, 2 n1 n2 / A");
+  group.say("meaning",
+            "For each r of /pair_correlation: the number of pairs of two groups, over the number for as many disks of "
+            "each group placed at random.");
 }
 
 void put_pairs(Hdf5Output& output, const AnalysisRecord& record, const Scene& scene) {
@@ -134,9 +140,10 @@ void put_pairs(Hdf5Output& output, const AnalysisRecord& record, const Scene& sc
   group.say("samples", samples);
   group.say("bin_width", scene.analysis.pairs.r_max / static_cast<double>(scene.analysis.pairs.bins));
   group.say("centres", static_cast<double>(record.pairs.centres) / samples);
-  group.say("meaning",
-            "pairs over those of as many disks placed at random; centres: disks, on average, whose "
-            "surroundings were counted, all but those near sides that are not periodic");
+  group.say(
+      "meaning",
+      "The number of pairs at a distance, over the number for as many disks placed at random. centres is the mean "
+      "number of disks around which pairs were counted: all disks except those near sides that are not periodic.");
   put_partial(output, record, scene.analysis);
 }
 
@@ -152,8 +159,8 @@ void put_speeds(Hdf5Output& output, const AnalysisRecord& record, const Scene& s
   group.say("beyond", static_cast<double>(record.speeds.beyond));
   group.say("temperature", record.speeds.temperature_sum / samples);
   group.say("meaning",
-            "u = v sqrt(m / T), T the mean kinetic energy of the sample's disks; in equilibrium "
-            "u exp(-u^2 / 2); beyond: counted above the last bin");
+            "The distribution of u = v sqrt(m / T), where T is the mean kinetic energy of the disks of a sample. In "
+            "equilibrium it is u exp(-u^2 / 2). beyond is the number of speeds above the last bin.");
 }
 
 void append_to(std::vector<double>& all, const std::vector<double>& row) {
@@ -182,7 +189,7 @@ void put_profile_rows(Hdf5Output& output, const AnalysisRecord& record, const Sc
   group.table("temperature", all.temperature, rows, "energy");
   group.table_of_counts("disks", disks, rows);
   group.counts("samples", samples);
-  group.say("meaning", "a row for each part of the run, which begins at its time and ends at the next one's");
+  group.say("meaning", "Each row is the mean over a part of the run, from the time of the row to that of the next.");
 }
 
 void put_density_rows(Hdf5Output& output, const AnalysisRecord& record, const Scene& scene) {
@@ -201,7 +208,7 @@ void put_density_rows(Hdf5Output& output, const AnalysisRecord& record, const Sc
   group.table("packing_fraction", packing, rows, "1");
   group.table("number_density", number, rows, "1 / length^2");
   group.counts("samples", samples);
-  group.say("meaning", "a row for each part of the run, which begins at its time and ends at the next one's");
+  group.say("meaning", "Each row is the mean over a part of the run, from the time of the row to that of the next.");
 }
 
 void put_profile(Hdf5Output& output, const AnalysisRecord& record, const Scene& scene) {
@@ -214,8 +221,10 @@ void put_profile(Hdf5Output& output, const AnalysisRecord& record, const Scene& 
   group.counts("disks", record.motion.disks);
   group.say("samples", static_cast<double>(record.motion.samples));
   group.say("axis", std::string(axis_names[scene.analysis.profile_along_x ? 0 : 1]));
-  group.say("meaning",
-            "mean velocity of the slab's disks, momentum over mass; mean kinetic energy of one, measured from it");
+  group.say(
+      "meaning",
+      "In each slab: the mean velocity of its disks, which is momentum over mass, and their temperature, the mean "
+      "kinetic energy of a disk relative to that velocity.");
   put_profile_rows(output, record, scene);
 }
 
@@ -229,10 +238,11 @@ void put_structure(Hdf5Output& output, const AnalysisRecord& record, const Scene
   put(structure_along_x(record, scene), "kx", "along_x");
   put(structure_along_y(record, scene), "ky", "along_y");
   group.say("samples", static_cast<double>(record.structure.samples));
-  group.say("meaning", std::string("|sum of exp(i k x)|^2 over the number of disks, mean over the samples") +
-                           (scene.box.shear.acts() ? "; along x with the ky nearest 0 of the waves that the images of "
-                                                     "the shear allow, at most pi / height"
-                                                   : ""));
+  group.say("meaning",
+            std::string("|sum of exp(i k x)|^2 over the number of disks, as a mean over the samples.") +
+                (scene.box.shear.acts() ? " Along x, ky is the smallest that the shifted images of a sheared "
+                                          "box allow; it is at most pi / height."
+                                        : ""));
 }
 
 void put_order(Hdf5Output& output, const AnalysisRecord& record) {
@@ -245,15 +255,15 @@ void put_order(Hdf5Output& output, const AnalysisRecord& record) {
   put("local", record.series.local_order);
   put("global", record.series.global_order);
   group.say("meaning",
-            "psi6 of a disk: mean of exp(6 i angle) over its six nearest neighbours; local: mean of |psi6|, "
-            "global: |mean of psi6|");
+            std::string(meaning_of_psi6) + " local is the mean of |psi6| over all disks, global is |mean of psi6|.");
 }
 
 void put_memory(Hdf5Output& output, const AnalysisRecord& record, const Scene& scene) {
   const Group group(output, "/velocity_autocorrelation");
   group.numbers("value", record.series.autocorrelation, "length^2 / time^2");
-  group.say("meaning", std::string("mean of v(0) v(t) over the disks of the first sample that are still there") +
-                           (scene.box.shear.acts() ? "; velocities relative to the shear flow" : ""));
+  group.say("meaning",
+            std::string("The mean of v(0) v(t) over the disks of the first sample that are still in the box.") +
+                (scene.box.shear.acts() ? " Velocities are relative to the shear flow." : ""));
 }
 
 void put_bond_memory(Hdf5Output& output, const AnalysisRecord& record) {
@@ -261,8 +271,9 @@ void put_bond_memory(Hdf5Output& output, const AnalysisRecord& record) {
   group.numbers("value", record.series.bond_autocorrelation, "1");
   group.say(
       "meaning",
-      "g6(t): sum of Re(psi6(0)* psi6(t)) over sum of |psi6(0)|^2, of the disks of the first sample that are still "
-      "there; psi6 as in bond_order");
+      std::string("g6(t) is the sum of Re(psi6(0)* psi6(t)) over the sum of |psi6(0)|^2, both over the disks of the "
+                  "first sample that are still in the box. ") +
+          meaning_of_psi6);
 }
 
 void put_density(Hdf5Output& output, const AnalysisRecord& record, const Scene& scene) {
@@ -284,7 +295,8 @@ void put_bonds(Hdf5Output& output, const AnalysisRecord& record, const Scene& sc
   group.numbers("g6", curve.value, "1");
   group.counts("pairs", record.bonds.pairs);
   group.say("samples", static_cast<double>(record.bonds.samples));
-  group.say("meaning", "mean of Re(psi6* psi6') over pairs of disks that far apart, psi6 as in bond_order");
+  group.say("meaning",
+            std::string("The mean of Re(psi6* psi6') over all pairs of disks at the distance r. ") + meaning_of_psi6);
 }
 
 }  // namespace
