@@ -7,13 +7,12 @@
 #include <numbers>
 #include <optional>
 
+#include "core/load/densest_packing.hpp"
 #include "core/scene/size_law.hpp"
 
 namespace carom {
 
 namespace {
-
-constexpr double densest_of_equal_disks = 0.90689968211710892530;  // pi / sqrt(12), between walls as in the plane
 
 // A lower bound on the area that the initial disks need: for equal disks that of the densest packing, otherwise the sum
 // of their areas, since small disks fill gaps. Obstacles, which may overlap, are left out.
@@ -30,7 +29,7 @@ double least_room(const Scene& scene) {
     }
     first_id += static_cast<DiskId>(group.count);
   }
-  return std::numbers::pi * radius_squared / (smallest == largest ? densest_of_equal_disks : 1.0);
+  return std::numbers::pi * radius_squared / (smallest == largest ? densest_packing : 1.0);
 }
 
 // The area between the sides at time t; a vibrating side counts at its furthest, once it has been there.

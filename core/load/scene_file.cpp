@@ -14,6 +14,7 @@
 #include "core/base/input_message.hpp"
 #include "core/base/short_number.hpp"
 #include "core/load/box_check.hpp"
+#include "core/load/densest_packing.hpp"
 #include "core/load/method_choice.hpp"
 #include "core/load/moving_side_check.hpp"
 #include "core/load/scene_check.hpp"
@@ -37,9 +38,6 @@
 namespace carom {
 
 namespace {
-
-// Densest packing of equal disks, pi / sqrt(12).
-constexpr double densest_packing = 0.90689968211710892530;
 
 // The table under a name of the root, or nullptr. Throws InputError if the name holds something else.
 const toml::table* section(const SceneOrigin& origin, std::string_view name) {
