@@ -322,7 +322,6 @@ void add_collapse(const CollapseForesight& collapse, std::vector<std::string>& t
 
 // The consequence of a dt longer than the safe step. Only the speeds of the start are certain: those of a fall through
 // the whole box or off the fastest wall, and three deviations of a draw, may never be reached.
-// whole box or off the fastest wall, and three deviations of a draw, need not be reached.
 const char* outcome_of_long_step(const Scene& scene, const StepForesight& steps) {
   if (scene.run.method == Method::exact) return "collisions of Brownian disks will be wrong";
   const bool brownian = scene.physics.diffusion > 0.0;
