@@ -193,10 +193,13 @@ class Result:
         """The state_hash, 16 hexadecimal digits."""
         return self.summary["state_hash"]
 
-    def _file(self, name):
+    def _results(self):
         if self.folder is None:
             raise SceneError("the run wrote no files; give carom.run a folder: out=\"out/gas\"")
-        return os.path.join(self.folder, name)
+        return self.folder
+
+    def _file(self, name):
+        return os.path.join(self._results(), name)
 
     @property
     def series(self) -> dict:
@@ -218,7 +221,7 @@ class Result:
     @property
     def frames(self) -> Trajectory:
         """The trajectory, frame by frame."""
-        return Trajectory(self._file(""))
+        return Trajectory(self._results())
 
     @property
     def analysis(self) -> dict:

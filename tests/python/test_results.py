@@ -121,6 +121,14 @@ def test_a_run_without_files_is_shown_too():
         result.frames
 
 
+def test_a_run_without_a_trajectory_names_its_folder_once(tmp_path):
+    scene = carom.Scene({"box": {"width": 9.0, "height": 9.0}, "run": {"t_end": 1.0}, "output": {"series": True},
+                         "disks": [{"count": 3, "positions": "random", "radius": 0.5, "mass": 1.0}]})
+    with pytest.raises(carom.SceneError) as error:
+        carom.run(scene, out=tmp_path / "run").frames
+    assert str(error.value) == f"{tmp_path / 'run'}: holds no trajectory; expected trajectory.xyz or trajectory.h5"
+
+
 def test_the_viewer_is_one_page(result, tmp_path, monkeypatch):
     page = tmp_path / "page.html"
     assert result.show(page) is None
