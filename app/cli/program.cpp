@@ -42,21 +42,19 @@ struct Dispatch {
   char** argv;
   RankLead* lead;
 
-  int operator()(RunOptions options) const {
+  template <class Options>
+  int on_ranks(Options options, int (*command)(const Options&)) const {
+    if (lead == nullptr) warn_of_lone_ranks(options);
+    if (options.ranks && lead == nullptr) return start_ranks(*options.ranks, argc, argv);
+    if (options.ranks) check_started_ranks(*options.ranks, ranks_of(*lead));
+    options.lead = lead;
+    return command(options);
+  }
+  int operator()(const RunOptions& options) const {
     if (options.ranks) check_other_processes_have(options.scene);
-    if (lead == nullptr) warn_of_lone_ranks(options);
-    if (options.ranks && lead == nullptr) return start_ranks(*options.ranks, argc, argv);
-    if (options.ranks) check_started_ranks(*options.ranks, ranks_of(*lead));
-    options.lead = lead;
-    return command_run(options);
+    return on_ranks(options, command_run);
   }
-  int operator()(ResumeOptions options) const {
-    if (lead == nullptr) warn_of_lone_ranks(options);
-    if (options.ranks && lead == nullptr) return start_ranks(*options.ranks, argc, argv);
-    if (options.ranks) check_started_ranks(*options.ranks, ranks_of(*lead));
-    options.lead = lead;
-    return command_resume(options);
-  }
+  int operator()(const ResumeOptions& options) const { return on_ranks(options, command_resume); }
   int operator()(const CheckOptions& options) const { return command_check(options); }
   int operator()(const CompareOptions& options) const { return command_compare(options); }
   int operator()(const RenderOptions& options) const { return command_render(options); }
