@@ -1,12 +1,11 @@
 // Changes between two windows of `exact` on slabs: disks come from sources, leave through sinks, and are kicked.
-#include <utility>
-
 #include "core/step/source.hpp"
 #include "core/step/step_start.hpp"
 #include "core/step/thermostat.hpp"
 #include "core/step/window_start.hpp"
 #include "parallel/exact/window_passes.hpp"
 #include "parallel/kicks/kick_all.hpp"
+#include "parallel/slabs/newcomers_alone.hpp"
 #include "parallel/slabs/rank_sums.hpp"
 #include "parallel/slabs/redistribute.hpp"
 #include "parallel/slabs/slab_exact_engine.hpp"
@@ -34,24 +33,13 @@ void SlabExact::start_window() {
   if (is_kick_due(scene_, state_)) kick();
 }
 
-// All ranks draw the same newcomers, and ask each other whether one overlaps a disk. Until then only the newcomers are
-// in the state.
 void SlabExact::emit() {
-  Disks here = no_disks_like(state_.disks);
-  std::swap(here, state_.disks);
-  const auto has_room = [&](const Disk& disk) {
-    const Disks& newcomers = state_.disks;
-    return !ranks_.any(meets(newcomers, scene_.box, disk, 0, newcomers.size()) ||
-                       meets(here, scene_.box, disk, 0, here.size()));
-  };
-  try {
-    emit_at_window_start(scene_, state_, has_room);
-  } catch (...) {
-    std::swap(here, state_.disks);
-    throw;
-  }
-  std::swap(here, state_.disks);
-  const Disks& newcomers = here;
+  const Disks newcomers = emit_alone(state_, [&](const Disks& own) {
+    emit_at_window_start(scene_, state_, [&](const Disk& disk) {
+      return !ranks_.any(meets(state_.disks, scene_.box, disk, 0, state_.disks.size()) ||
+                         meets(own, scene_.box, disk, 0, own.size()));
+    });
+  });
   if (newcomers.empty()) return;
   take_newcomers(cut_, ranks_.rank(), newcomers, start_.disks == 0, start_.columns, state_.disks);
   start_.disks += newcomers.size();

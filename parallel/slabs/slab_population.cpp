@@ -9,6 +9,7 @@
 #include "parallel/ranks/message.hpp"
 #include "parallel/slabs/disk_pieces.hpp"
 #include "parallel/slabs/load_memory.hpp"
+#include "parallel/slabs/newcomers_alone.hpp"
 #include "parallel/slabs/rank_sums.hpp"
 #include "parallel/slabs/redistribute.hpp"
 #include "parallel/slabs/slab_stepping.hpp"
@@ -50,29 +51,19 @@ struct Migrants {
 
 }  // namespace
 
-// All ranks draw the same newcomers, and ask each other whether one overlaps a disk; each takes those in its slab.
-// Until then only the newcomers are in the state.
 void SlabStepping::emit_from_sources(double t, Count step) {
   bool due = false;
   for (std::size_t s = 0; s < scene_.sources.size(); ++s) {
     due = due || due_by(scene_.sources[s], t) > state_.sources[s].emitted;
   }
   if (due) sort_now();
-  Disks own;
-  own.inertia = state_.disks.inertia;
-  std::swap(own, state_.disks);
-  const auto has_room = [&](const Disk& disk) {
-    const bool met = meets(state_.disks, scene_.box, disk, 0, state_.disks.size()) ||
-                     (!own.empty() && meets_nearby(own, scene_.box, cells_.grid, cells_.sorted, disk));
-    return !ranks_.any(met);
-  };
-  try {
-    emit_due(scene_, state_, t, step, has_room);
-  } catch (...) {
-    state_.disks = std::move(own);
-    throw;
-  }
-  const Disks newcomers = std::exchange(state_.disks, std::move(own));
+  const Disks newcomers = emit_alone(state_, [&](const Disks& own) {
+    emit_due(scene_, state_, t, step, [&](const Disk& disk) {
+      const bool met = meets(state_.disks, scene_.box, disk, 0, state_.disks.size()) ||
+                       (!own.empty() && meets_nearby(own, scene_.box, cells_.grid, cells_.sorted, disk));
+      return !ranks_.any(met);
+    });
+  });
   if (!newcomers.empty()) take_newcomers(newcomers);
 }
 
