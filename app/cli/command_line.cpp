@@ -77,6 +77,7 @@ void describe_check(CLI::App* check, OptionWords& words) {
   add_scene_options(check, words);
   add_value(check, "--accuracy", words.accuracy, "X",
             "find the method and dt that keep the error of averages (collision rate, pressure) below X");
+  add_value(check, "--threads", words.threads, "N", "number of threads of the run; default all cores");
   add_value(check, "--ranks", words.ranks, "N", "also predict memory and messages for this number of processes");
   check->add_flag("--json", words.json, "print the result as JSON");
 }

@@ -51,7 +51,7 @@ struct CheckOptions {
   std::string scene;
   SceneChanges changes;
   std::optional<double> accuracy;
-  std::optional<int> ranks;  // >= 1
+  std::optional<int> threads, ranks;  // >= 1
   bool json = false;
 };
 

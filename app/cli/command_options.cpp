@@ -83,6 +83,7 @@ CheckOptions check_options(const OptionWords& words) {
   o.scene = words.first;
   o.changes = changes_of(words);
   o.json = words.json;
+  if (!words.threads.empty()) o.threads = count_of("--threads", words.threads, most_threads);
   if (!words.ranks.empty()) o.ranks = count_of("--ranks", words.ranks);
   if (words.accuracy.empty()) return o;
   o.accuracy = number_of("--accuracy", words.accuracy);

@@ -203,7 +203,7 @@ void try_ranks(const Scene& scene, const EngineChoice& choice, int ranks, bool t
 
 int command_check(const CheckOptions& options) {
   const Scene scene = load_scene_as_told(options.scene, options.changes);
-  const EngineChoice choice = choose_engine("", std::nullopt);
+  const EngineChoice choice = choose_engine("", options.threads);
   for (const std::string& warning : scene_warnings(scene)) print_warning(warning);
   Findings found;
   const auto start = WallClock::now();
