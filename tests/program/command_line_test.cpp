@@ -419,8 +419,9 @@ TEST_F(CommandLine, CollapseWithoutTheExactMethodIsWarnedOf) {
 TEST_F(CommandLine, ProgressOnATerminalOnly) {
   // script(1) provides a terminal. Without ffmpeg the run makes pictures, which take long enough for a line of
   // progress.
-  const Outcome o =
-      shell("script -qec \"PATH=/nonexistent $C run small.toml -o out --set output.movie=true\" /dev/null");
+  const Outcome o = shell(
+      "script -qec \"PATH=/nonexistent $C run small.toml -o out --set output.movie=true --set output.every=0.02\" "
+      "/dev/null");
   EXPECT_EQ(o.status, 0) << o.out;
   EXPECT_THAT(o.out, HasSubstr(" of 1  "));
   EXPECT_THAT(o.out, HasSubstr(" steps/s  "));
