@@ -47,7 +47,8 @@ ShuffledDeflate::~ShuffledDeflate() {
   deflateEnd(&stream_->z);
 }
 
-const std::vector<unsigned char>& ShuffledDeflate::pack(const void* data, std::size_t bytes, std::size_t width) {
+const std::vector<unsigned char>& ShuffledDeflate::pack(const void* data, std::size_t bytes, std::size_t width,
+                                                        Repetition repetition) {
   const std::size_t count = bytes / width;
   shuffled_.resize(bytes);
   shuffle(static_cast<const unsigned char*>(data), count, width, shuffled_.data());
@@ -57,10 +58,11 @@ const std::vector<unsigned char>& ShuffledDeflate::pack(const void* data, std::s
   packed_.resize(deflateBound(&z, static_cast<uLong>(bytes)) + 64 * width);
   z.next_out = packed_.data();
   z.avail_out = static_cast<uInt>(packed_.size());
+  const int strategy = repetition == Repetition::runs ? Z_RLE : Z_DEFAULT_STRATEGY;
   for (std::size_t byte = 0; byte < width; ++byte) {
     unsigned char* const plane = shuffled_.data() + byte * count;
-    // The new level applies to input from now on; earlier input is written with its own level.
-    deflateParams(&z, worth_compressing(plane, count) ? fast_level : 0, Z_DEFAULT_STRATEGY);
+    // The new parameters apply to input from now on; earlier input is written with its own.
+    deflateParams(&z, worth_compressing(plane, count) ? fast_level : 0, strategy);
     z.next_in = plane;
     z.avail_in = static_cast<uInt>(count);
     deflate(&z, byte + 1 == width ? Z_FINISH : Z_NO_FLUSH);

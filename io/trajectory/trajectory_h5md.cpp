@@ -48,6 +48,11 @@ struct Packer {
 };
 constexpr std::size_t chunks_at_once = 16;
 
+Repetition repetition_of(H5mdQuantity quantity) {
+  const bool has_patterns = quantity == H5mdQuantity::id || quantity == H5mdQuantity::species;
+  return has_patterns ? Repetition::patterns : Repetition::runs;
+}
+
 std::string user_name() {
   const char* const name = std::getenv("USER");  // NOLINT(concurrency-mt-unsafe): it is never set here
   return name == nullptr || *name == '\0' ? "unknown" : name;
@@ -237,7 +242,7 @@ void H5mdWriter::File::write_element(H5mdElement& e, const PlaceBatch& batch, co
     run(count, [&](std::size_t k) {
       Packer& packer = packers[k];
       fill(e, batch, firsts[done + k], firsts[done + k] + chunk, packer.buffer);
-      packer.deflate.pack(packer.buffer.data(), packer.buffer.size(), e.kind.width);
+      packer.deflate.pack(packer.buffer.data(), packer.buffer.size(), e.kind.width, repetition_of(e.quantity));
     });
     for (std::size_t k = 0; k < count; ++k) {
       begin[1] = batch.first + firsts[done + k];

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <numeric>
 
 #include "core/base/random.hpp"
 #include "io/files/output_file.hpp"
@@ -75,14 +76,28 @@ TEST(Hdf5Text, IsUtf8) {
 TEST(ShuffledDeflate, PacksWhatIsNoNoise) {
   constexpr std::size_t count = 4096, bytes = count * sizeof(double);
   ShuffledDeflate deflate;
-  std::vector<double> values(count, 0.5);
-  EXPECT_LT(deflate.pack(values.data(), bytes, sizeof(double)).size(), bytes / 50);
-  for (std::uint32_t i = 0; i < count; ++i) values[i] = uniforms(1, Stream::position, i, 0).a;
-  const std::size_t noise = deflate.pack(values.data(), bytes, sizeof(double)).size();
-  EXPECT_LT(noise, bytes * 95 / 100) << "there are few different exponents";
-  EXPECT_GT(noise, bytes * 80 / 100);
-  for (std::uint32_t i = 0; i < count; ++i) values[i] = std::floor(100.0 * values[i]);
-  EXPECT_LT(deflate.pack(values.data(), bytes, sizeof(double)).size(), bytes / 4);
+  for (const Repetition repetition : {Repetition::runs, Repetition::patterns}) {
+    const auto packed_size = [&](const std::vector<double>& values) {
+      return deflate.pack(values.data(), bytes, sizeof(double), repetition).size();
+    };
+    std::vector<double> values(count, 0.5);
+    EXPECT_LT(packed_size(values), bytes / 50);
+    for (std::uint32_t i = 0; i < count; ++i) values[i] = uniforms(1, Stream::position, i, 0).a;
+    const std::size_t noise = packed_size(values);
+    EXPECT_LT(noise, bytes * 95 / 100) << "there are few different exponents";
+    EXPECT_GT(noise, bytes * 80 / 100);
+    for (std::uint32_t i = 0; i < count; ++i) values[i] = std::floor(100.0 * values[i]);
+    EXPECT_LT(packed_size(values), bytes / 4);
+  }
+}
+
+TEST(ShuffledDeflate, FindsPatternsWhereTheyMayBe) {
+  std::vector<std::uint32_t> ids(16384);
+  std::iota(ids.begin(), ids.end(), 0U);
+  const std::size_t bytes = ids.size() * sizeof ids[0];
+  ShuffledDeflate deflate;
+  const std::size_t as_runs = deflate.pack(ids.data(), bytes, sizeof ids[0], Repetition::runs).size();
+  EXPECT_LT(deflate.pack(ids.data(), bytes, sizeof ids[0], Repetition::patterns).size(), as_runs / 10);
 }
 
 }  // namespace
