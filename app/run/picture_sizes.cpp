@@ -6,6 +6,7 @@
 
 #include "io/movie/frame.hpp"
 #include "io/movie/movie.hpp"
+#include "io/plots/gnuplot.hpp"
 #include "io/plots/plot.hpp"
 #include "io/view/view_page.hpp"
 #include "run/recordings/run_view.hpp"
