@@ -15,6 +15,8 @@ namespace carom {
 namespace {
 
 constexpr std::size_t buffer_bytes = std::size_t{1} << 18;  // large enough that the system call costs nothing
+// To reserve less than this takes longer than it saves, and leaves the file in as many pieces as there were requests.
+constexpr std::uint64_t least_reserved = std::uint64_t{1} << 20;
 
 // Pipes and some network file systems have no fsync; that is no error.
 bool cannot_sync(int error) {
@@ -46,7 +48,8 @@ void OutputFile::write(std::string_view text) {
   bytes_ += text.size();
 }
 
-void OutputFile::reserve(std::uint64_t bytes) {
+void OutputFile::reserve([[maybe_unused]] std::uint64_t bytes) {
+  if (bytes < least_reserved) return;
 #if defined(FALLOC_FL_KEEP_SIZE)
   // The length stays that of what is written, so that a run that is killed leaves no zeros.
   static_cast<void>(

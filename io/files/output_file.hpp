@@ -25,7 +25,8 @@ class OutputFile {
   void write(std::string_view text);
 
   // Asks the file system for room behind what is written, before that much is written: to find it at once takes half
-  // the time of the system's writes. A file system that cannot do so, or is full, is no error here.
+  // the time of the system's writes. Of less than a megabyte no room is asked for: it would take longer. A file system
+  // that cannot do so, or is full, is no error here.
   void reserve(std::uint64_t bytes);
 
   // Passes buffered data to the system, so that readers of the growing file see whole records.

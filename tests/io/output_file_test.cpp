@@ -2,6 +2,7 @@
 #include "io/files/output_file.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -14,6 +15,13 @@ namespace carom {
 namespace {
 
 namespace fs = std::filesystem;
+
+// What a file takes of the disk, with the room that is reserved for it.
+std::uint64_t bytes_on_disk(const std::string& path) {
+  struct stat status {};
+  EXPECT_EQ(stat(path.c_str(), &status), 0);
+  return static_cast<std::uint64_t>(status.st_blocks) * 512;
+}
 
 TEST(OutputFile, IsGoneOnWithToTheByte) {
   const test::TestFolder folder("carom_file_gone_on_with");
@@ -43,14 +51,49 @@ TEST(OutputFile, RoomIsReservedBehindTheText) {
   {
     OutputFile file(path);
     file.write("12");
-    file.reserve(1'000'000);
+    file.reserve(4'000'000);
     file.write("345");
     file.flush();
     EXPECT_EQ(fs::file_size(path), 5U);
   }
   EXPECT_EQ(test::text_of(path), "12345");
   OutputFile pipe("/dev/null");
-  EXPECT_NO_THROW(pipe.reserve(1'000'000)) << "no room can be reserved there";
+  EXPECT_NO_THROW(pipe.reserve(4'000'000)) << "no room can be reserved there";
+}
+
+TEST(OutputFile, RoomIsReservedForTextToCome) {
+  const test::TestFolder folder("carom_file_of_text_to_come");
+  const std::string path = folder.path() / "trajectory.xyz";
+  constexpr std::size_t some = 3'000'000;
+  OutputFile file(path);
+  file.reserve(some);
+  if (bytes_on_disk(path) < some) GTEST_SKIP() << "no room can be reserved on this file system";
+  file.write(std::string(some, 'a'));
+  file.reserve(some);
+  EXPECT_GE(bytes_on_disk(path), 2 * some);
+}
+
+// A run that goes on cuts off the room behind what it keeps, too, which is all that a kill may have left.
+TEST(OutputFile, RoomThatAKillLeftIsGivenBack) {
+  const test::TestFolder folder("carom_file_given_back");
+  const std::string path = folder.path() / "trajectory.xyz";
+  OutputFile killed(path);
+  killed.write("12345");
+  killed.reserve(4'000'000);
+  killed.flush();
+  { OutputFile whole(path, 5); }
+  EXPECT_LT(bytes_on_disk(path), 1'000'000U);
+}
+
+// Else the frames of a few disks would be as many pieces of the file.
+TEST(OutputFile, NoRoomIsReservedForALittleText) {
+  const test::TestFolder folder("carom_file_of_little_text");
+  const std::string path = folder.path() / "trajectory.xyz";
+  OutputFile file(path);
+  file.write("12345");
+  file.reserve(500'000);
+  file.flush();
+  EXPECT_LT(bytes_on_disk(path), 400'000U);
 }
 
 // Data that fit into the buffer are written when the file is closed.
