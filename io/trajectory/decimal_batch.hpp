@@ -14,16 +14,16 @@ struct DecimalBatch {
 
   // A number is d.dddd * 10^exponent, where its first digit is the one behind the zeros.
   struct Scale {
-    std::uint32_t exponent;  // minus first_exponent (decimal_scale.hpp); unconverted: there are no digits
+    std::uint32_t exponent;  // minus first_exponent (decimal_scale.hpp); near unconverted: there are no digits
     std::int32_t zeros;      // at the beginning, minus their number
   };
   static constexpr std::uint32_t unconverted = 64;
   static constexpr std::size_t digits_at = 7;  // in a text
 
   alignas(64) std::array<Number, size> numbers{};
-  alignas(64) std::array<std::array<char, 32>, size> texts;  // seventeen digits each, from byte digits_at on
-  alignas(32) std::array<Scale, size> scales;
-  alignas(32) std::array<std::uint16_t, size> nonzero;  // bit k: digit k + 1 is not 0, where the first is digit 0
+  alignas(64) std::array<std::array<char, 32>, size> texts{};  // seventeen digits each, from byte digits_at on
+  alignas(32) std::array<Scale, size> scales{};
+  alignas(32) std::array<std::uint16_t, size> nonzero{};  // bit k: digit k + 1 is not 0, where the first is digit 0
 };
 
 // Finds the digits of the numbers of a batch. The baseline converts none.
