@@ -75,7 +75,7 @@ inline __m256i bits_of(const float* numbers) {
   return _mm256_castpd_si256(_mm256_cvtps_pd(_mm_load_ps(numbers)));
 }
 
-// The words of the binades of four numbers, by the exponents in their bbinade.
+// The words of the binades of four numbers, by the exponents in their bits.
 template <class Number>
 __m256i words_of(__m256i twice_bits) {
   const __m256i biased = _mm256_srli_epi64(twice_bits, 53);
@@ -124,7 +124,8 @@ void scale(const Number* numbers, Work& work, std::size_t at) {
 
 // whole / 10^8, rounded down, for numbers below 10^17: 10^8 is 2^8 * 390625. A whole number below 2^52 becomes a double
 // if it is written into the fraction of 2^52. One half is added to it before it is divided and taken away from the
-// quotient, so that the sum is rounded down and never at a tie.
+// quotient, so that the sum is rounded down and never at a tie. Of 0, which an unconverted number has here, the result
+// is of no use, and not used.
 inline __m256i by_ten_to_8(__m256i whole) {
   const __m256i unit = _mm256_castpd_si256(_mm256_set1_pd(4503599627370496.0));  // 2^52
   const __m256d less_half = _mm256_set1_pd(4503599627370495.5);

@@ -22,7 +22,7 @@ struct BinaryFormat<float> {
 };
 
 // All numbers in [2^b, 2^(b+1)). Let 10^k be the largest power of ten with 10^k <= 2^q. Then c * 2^q is c * five /
-// 2^shift in units of 10^k, where five = 5^-k has less than 47 bits, so that the product is exact.
+// 2^shift in units of 10^k, where five = 5^-k has at most 47 bits, so that the product is exact.
 struct Binade {
   std::uint64_t five;
   int shift;

@@ -97,9 +97,10 @@ struct Decimal {
 template <class Number>
 Decimal decimal_of(std::uint64_t c, const Binade& binade) {
   constexpr std::uint64_t ten_to_16 = 10'000'000'000'000'000;
+  constexpr bool is_lifted = (lift<Number>) > 1;
   std::uint64_t number = shortest(c, binade) * lift<Number>;
-  int exponent = binade.unit + (lift<Number> > 1 ? 8 : 16);
-  for (int least_digits = lift < Number >> 1 ? 15 : 16; least_digits < 17; ++least_digits) {
+  int exponent = binade.unit + (is_lifted ? 8 : 16);
+  for (int least_digits = is_lifted ? 15 : 16; least_digits < 17; ++least_digits) {
     const bool lacks_one = number < ten_to_16;
     number += mask(lacks_one) & (9 * number);
     exponent -= static_cast<int>(lacks_one);
