@@ -269,7 +269,7 @@ double checkpoint_bytes(const State& state, double disks) {
 double remembered_bytes(const Scene& scene, double frames, double disks) {
   constexpr double velocity_bytes = 360.0, energy_bytes = 32.0, rounds_bytes = 8.0;
   double bytes = 0.0;
-  for (const std::string& plot : scene.output.plots) {
+  for (const std::string& plot : plots_over_frames(scene)) {
     bytes += frames * (plot == "velocity" ? velocity_bytes : energy_bytes);
   }
   return shows_rounds(scene) ? bytes + rounds_bytes * disks : bytes;
@@ -296,7 +296,7 @@ OutputForesight foresee_outputs(const Scene& scene, const EngineChoice& choice, 
     f.samples = moments_shown(scene, scene.analysis.every, scene.run.t_end - scene.analysis.start);
   if (!wants_files(scene)) return f;
   f.ffmpeg_bytes = memory_of_ffmpeg(scene);
-  const double plots = static_cast<double>(scene.output.plots.size()) + quantities_of(scene);
+  const double plots = static_cast<double>(plots_over_frames(scene).size()) + quantities_of(scene);
   const bool draws = plots > 0.0 && !find_program("gnuplot").empty();
   if (scene.output.movie && !finds_ffmpeg()) f.missing.emplace_back(without_ffmpeg);
   if (plots > 0.0 && !draws) f.missing.emplace_back(without_gnuplot);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "core/scene/drawn_velocities.hpp"
 #include "io/movie/frame.hpp"
 #include "io/movie/movie.hpp"
 #include "io/plots/gnuplot.hpp"
@@ -53,6 +55,12 @@ PlotForm plot_form(const Scene& scene, std::string_view plot, double disks) {
 
 }  // namespace
 
+std::vector<std::string> plots_over_frames(const Scene& scene) {
+  std::vector<std::string> plots = scene.output.plots;
+  if (velocities_are_drawn(scene)) std::erase(plots, "energy");
+  return plots;
+}
+
 void add_page(const Scene& scene, double shown, OutputForesight& f) {
   constexpr double disk_bytes = 2.0, xyz_s = 1.7e-6, h5md_s = 0.4e-6;
   const double disk_frames = shown * static_cast<double>(f.frames);
@@ -63,7 +71,7 @@ void add_page(const Scene& scene, double shown, OutputForesight& f) {
 
 void add_plots(const Scene& scene, double disks, OutputForesight& f) {
   const auto points = static_cast<double>(points_drawn(f.frames));
-  for (const std::string& plot : scene.output.plots) {
+  for (const std::string& plot : plots_over_frames(scene)) {
     const PlotForm form = plot_form(scene, plot, disks);
     f.files.emplace_back(plot + ".svg", panel_bytes * form.panels + (curve_bytes + point_bytes * points) * form.curves);
   }

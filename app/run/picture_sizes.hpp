@@ -1,12 +1,18 @@
 // The bytes of a run's plots and page, which carom check does not make, and the memory of ffmpeg.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "app/run/check_outputs.hpp"
 
 namespace carom {
 
 // Of a panel's axes in gnuplot's SVG, and of a plot of the analysis.
 inline constexpr double panel_bytes = 17e3, analysis_plot_bytes = 1.5 * panel_bytes;
+
+// The plots of `[output]` that a run draws. Brownian disks have no energies to plot.
+std::vector<std::string> plots_over_frames(const Scene& scene);
 
 // Adds the plots over frames of a run with this number of disks.
 void add_plots(const Scene& scene, double disks, OutputForesight& f);

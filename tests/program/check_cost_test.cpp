@@ -142,6 +142,15 @@ TEST_F(LongCheckCost, PlotsAreAsLargeAsTheirCurves) {
   }
 }
 
+TEST_F(CheckCost, BrownianDisksHaveNoPlotOfEnergies) {
+  const std::string plots = "small.toml --set physics.diffusion=0.1 --set 'output.plots=[\"velocity\", \"energy\"]'";
+  const Json files = Json::parse(carom("check --json " + plots).out)["files_bytes"];
+  ASSERT_EQ(carom("run --quiet -o out " + plots).status, 0);
+  EXPECT_FALSE(std::filesystem::exists(at("out") / "energy.svg"));
+  EXPECT_FALSE(files.contains("energy.svg"));
+  EXPECT_EQ(files.contains("velocity.svg"), std::filesystem::exists(at("out") / "velocity.svg"));
+}
+
 // In the TC model a disk at rest makes ten collisions in a contact time, which the trial does not see while disks fall.
 TEST_F(CheckCost, APileUnderTheTcModelIsDear) {
   const std::string fall =
