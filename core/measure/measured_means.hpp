@@ -12,8 +12,9 @@ namespace carom {
 
 struct MeasuredMean {
   std::string_view name;
-  double value = 0.0;  // NaN with too few samples
-  double error = 0.0;  // its standard error; NaN likewise
+  double value = 0.0;                                      // NaN if there is nothing to measure
+  double error = 0.0;                                      // its standard error; NaN likewise, or with too few samples
+  std::string_view missing = "there are too few samples";  // the reason why the value is NaN
 };
 
 // Means over the samples, in this order, of pressure, collision_rate, diffusion, bond_order_local and

@@ -138,7 +138,7 @@ const JsonKey<Summary> summary_keys[] = {
     {"analysis", "",
      "only if `[analysis]` measures them: an object with the means of `pressure`, `collision_rate`, `bond_order_local` "
      "and `bond_order_global` over the samples, and `diffusion`, each with its standard error (`pressure_error`, ...), "
-     "as in analysis.h5; null with too few samples",
+     "as in analysis.h5; null with too few samples or if there is nothing to measure",
      [](const Summary& s) -> Json { return s.measured.empty() ? absent() : means_of(s); }},
     {"emitted", "", "disks that came from sources", [](const Summary& s) -> Json { return s.counters.emitted; }},
     {"state_hash", "", "64-bit hash of (id, x, y, vx, vy), and of the spin of rough disks, for all disks at the end",
@@ -244,7 +244,7 @@ std::string measured_line(const Summary& s) {
   std::string text;
   for (const MeasuredMean& mean : s.measured) {
     if (!text.empty()) text += ", ";
-    text += std::isnan(mean.value) ? fmt::format("{} unknown, as there are too few samples", mean.name)
+    text += std::isnan(mean.value) ? fmt::format("{} unknown, as {}", mean.name, mean.missing)
                                    : fmt::format("{} {:.6g}", mean.name, mean.value);
     if (!std::isnan(mean.error)) text += fmt::format(" +- {:.2g}", mean.error);
   }

@@ -1,11 +1,13 @@
 // The numbers and attributes of analysis.h5, for a record made by hand.
 #include "io/tables/analysis_file.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <string>
@@ -164,6 +166,36 @@ TEST_F(AnalysisFile, HasTheMeansOfTheSummary) {
   for (const MeasuredMean& none : measured_means(empty_record(scene), scene)) {
     EXPECT_TRUE(std::isnan(none.value) && std::isnan(none.error)) << none.name << " without samples";
   }
+}
+
+// A mean that no further sample would give has another reason.
+TEST_F(AnalysisFile, AMeanThatIsMissingHasItsReason) {
+  Scene scene = measured_scene("");
+  const auto reasons = [&](const AnalysisRecord& record) {
+    std::vector<std::string> all;
+    for (const MeasuredMean& mean : measured_means(record, scene)) {
+      if (std::isnan(mean.value)) all.emplace_back(mean.missing);
+    }
+    return all;
+  };
+  EXPECT_THAT(reasons(empty_record(scene)), ::testing::Each("there are too few samples"));
+  AnalysisRecord record = made_by_hand(scene);
+  EXPECT_THAT(reasons(record), ::testing::IsEmpty());
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  const std::size_t taken = record.series.time.size();
+  record.series.displacement.back() = nothing;  // as all disks that were followed are gone
+  record.series.local_order.assign(taken, nothing);
+  record.series.global_order.assign(taken, nothing);
+  record.series.disks.assign(taken, 6.0);
+  EXPECT_THAT(reasons(record),
+              ::testing::ElementsAre("the disks of the first sample are gone", "there are fewer than seven disks",
+                                     "there are fewer than seven disks"));
+  record.series.collision_rate.assign(taken, nothing);
+  record.series.disks.assign(taken, 0.0);
+  EXPECT_THAT(reasons(record), ::testing::Contains("there are no disks"));
+  scene.physics.diffusion = 0.1;
+  record.series.pressure.assign(taken, nothing);
+  EXPECT_THAT(reasons(record), ::testing::Contains("Brownian disks have no velocities"));
 }
 
 TEST_F(AnalysisFile, CountsAreOverTheSamples) {

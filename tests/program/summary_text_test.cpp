@@ -83,6 +83,8 @@ TEST(SummaryText, WhatAnAnalysisMeasuredHasItsError) {
       table_text(s, ""),
       HasSubstr(
           "  measured    pressure 0.5 +- 0.012, collision_rate 2, diffusion unknown, as there are too few samples\n"));
+  s.measured = {{"pressure", nothing, nothing, "Brownian disks have no velocities"}};
+  EXPECT_THAT(table_text(s, ""), HasSubstr("  measured    pressure unknown, as Brownian disks have no velocities\n"));
 }
 
 TEST(SummaryText, WhatWasWorstHasItsTimeAndItsDisks) {
