@@ -154,7 +154,7 @@ const JsonKey<Told> check_keys[] = {
      [](const Told& t) -> Json { return t.found.population.end; }},
     {"width", "length", "width of the box", [](const Told& t) -> Json { return t.scene.box.width; }},
     {"height", "length", "height of the box", [](const Told& t) -> Json { return t.scene.box.height; }},
-    {"packing_fraction", "", "packing fraction at the start",
+    {"packing_fraction", "", "packing fraction at the start, without fixed disks",
      [](const Told& t) -> Json { return json_number(t.found.packing_fraction); }},
     {"dt", "time", "the time step; 0 if the scene has none", [](const Told& t) -> Json { return t.scene.run.dt; }},
     {"safe_dt", "time",
@@ -200,6 +200,15 @@ std::string memory_text(const Findings& f, bool tried) {
                      movie > 0.0 ? fmt::format(", {}B of it for ffmpeg", short_number(movie)) : "");
 }
 
+std::string box_text(const Scene& scene, const Findings& f) {
+  std::string text =
+      fmt::format("{:g} x {:g}, packing fraction {:.4g}", scene.box.width, scene.box.height, f.packing_fraction);
+  if (f.packing_fraction_fixed > 0.0) {
+    text += fmt::format(", {:.4g} with fixed disks", f.packing_fraction + f.packing_fraction_fixed);
+  }
+  return text;
+}
+
 std::string main_text(const Scene& scene, const Findings& f) {
   std::string text =
       fmt::format("{}: {}\n", one_line(scene.file), scene.title.empty() ? "a scene" : one_line(scene.title));
@@ -207,8 +216,7 @@ std::string main_text(const Scene& scene, const Findings& f) {
     text += fmt::format("  {:<12}{}\n", name, value);
   };
   line("disks", disks_text(scene, f));
-  line("box",
-       fmt::format("{:g} x {:g}, packing fraction {:.4g}", scene.box.width, scene.box.height, f.packing_fraction));
+  line("box", box_text(scene, f));
   line("sides", sides_text(scene));
   line("physics", physics_text(scene));
   line("method", scene.run.automatic ? choice_text(scene) : method_text(scene));

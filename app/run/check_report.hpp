@@ -19,7 +19,8 @@ struct Findings {
   Count disks = 0;
   double smallest_radius = 0.0, largest_radius = 0.0;
   double smallest_mass = 0.0, largest_mass = 0.0;
-  double packing_fraction = 0.0;
+  double packing_fraction = 0.0;        // of the disks that move
+  double packing_fraction_fixed = 0.0;  // of fixed disks, which count in the scene's box.packing_fraction
   StepForesight steps;
   Population population;
   CollapseForesight collapse;

@@ -23,6 +23,7 @@
 #include "core/load/scene_scales.hpp"
 #include "core/load/scene_warnings.hpp"
 #include "core/scene/scene_output.hpp"
+#include "core/scene/size_law.hpp"
 #include "core/start/initial_state.hpp"
 #include "core/step/step_start.hpp"
 #include "core/step/validity.hpp"
@@ -50,7 +51,14 @@ void measure_sizes(const Scene& scene, const Disks& disks, Findings& f) {
     f.largest_mass = std::max(f.largest_mass, mass);
     area += std::numbers::pi * disks.radius_of(i) * disks.radius_of(i);
   }
-  f.packing_fraction = area / (scene.box.width * scene.box.height);
+  const double box = scene.box.width * scene.box.height;
+  f.packing_fraction = area / box;
+  DiskId first_id = 0;
+  for (const DiskGroup& group : scene.groups) {
+    const double squares = group.fixed ? summarise_sizes(group, scene.seed, first_id).radius_squared : 0.0;
+    f.packing_fraction_fixed += std::numbers::pi * squares / box;
+    first_id += static_cast<DiskId>(group.count);
+  }
 }
 
 // The time for growing the scene's disks, from the measurements in docs/methods.md: collisions a disk rise steeply

@@ -35,7 +35,7 @@ inline constexpr SceneKey keys[] = {
     {"box", "height", positive, Dimension::length, "required without packing_fraction", "From bottom to top.",
      "height = 100.0"},
     {"box", "packing_fraction", positive, none, "from width and height",
-     "Area of the disks at the start over that of the box. The box gets the size that this needs.",
+     "Area of the disks at the start, with fixed ones, over that of the box. The box gets the size that this needs.",
      "packing_fraction = 0.5", "a number above 0 and below pi / sqrt(12) = 0.9069"},
     {"box", "aspect", positive, none, "1", "Width over height; only with `packing_fraction`.", "aspect = 2.0"},
     {"box", "left", special, none, "\"wall\"", side_says, R"(left = "periodic")", side_allowed, side_kind_names},

@@ -80,6 +80,9 @@ TEST_F(CheckReport, FixedDisksAndInnerWallsAreCounted) {
   write("fixed.toml",
         std::string(two_disks) + "[[disks]]\nfixed = true\ncount = 2\npositions = [[7, 7], [8, 8]]\nradius = 0.5\n");
   EXPECT_THAT(carom("check fixed.toml").out, HasSubstr("  disks       2, radius 0.5, mass 1 to 3; 2 fixed\n"));
+  EXPECT_THAT(carom("check fixed.toml").out,
+              HasSubstr("  box         10 x 10, packing fraction 0.01571, 0.03142 with fixed disks\n"));
+  EXPECT_THAT(said(""), HasSubstr("  box         10 x 10, packing fraction 0.01571\n"));
 }
 
 TEST_F(CheckReport, AShearFlowIsInWords) {
