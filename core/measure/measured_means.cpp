@@ -44,7 +44,10 @@ std::vector<MeasuredMean> measured_means(const AnalysisRecord& record, const Sce
   if (plan.wants(Quantity::displacement)) {
     const DiffusionFit fit = diffusion_of(record, scene);
     MeasuredMean& mean = means.emplace_back(MeasuredMean{"diffusion", fit.value, fit.error});
-    if (!std::isnan(fit.from)) mean.missing = "the disks of the first sample are gone";
+    if (!std::isnan(fit.from)) {
+      const bool none = series.followed.front() == 0.0;
+      mean.missing = none ? "the first sample had no disks" : "the disks of the first sample are gone";
+    }
   }
   if (plan.wants(Quantity::bond_order)) {
     const bool few = always_fewer(series, least_of_bonds);

@@ -190,6 +190,8 @@ TEST_F(AnalysisFile, AMeanThatIsMissingHasItsReason) {
   EXPECT_THAT(reasons(record),
               ::testing::ElementsAre("the disks of the first sample are gone", "there are fewer than seven disks",
                                      "there are fewer than seven disks"));
+  record.series.followed.front() = 0.0;
+  EXPECT_THAT(reasons(record), ::testing::Contains("the first sample had no disks"));
   record.series.collision_rate.assign(taken, nothing);
   record.series.disks.assign(taken, 0.0);
   EXPECT_THAT(reasons(record), ::testing::Contains("there are no disks"));
