@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import json
 import operator
 import os
@@ -149,6 +150,16 @@ class Column(np.ndarray):
         return self.attributes.get("standard_error")
 
 
+class Columns(dict):
+    """The columns of a file by name. A name that the file does not have raises a KeyError with the nearest that it
+    has, or with all."""
+
+    def __missing__(self, name):
+        near = difflib.get_close_matches(name, self, n=1) if isinstance(name, str) else []
+        names = ", ".join(map(repr, near or self))
+        raise KeyError(f"there is no column {name!r}; expected {'' if near else 'one of '}{names}")
+
+
 def _attributes(item) -> dict:
     """The attributes of a data set and of its group. The mean of a group is that of its value, not of the intervals
     beside it; if the group has several series, NAME_mean is the mean of NAME."""
@@ -216,7 +227,7 @@ class Result:
             table = np.genfromtxt(path, delimiter=",", names=True, deletechars="", ndmin=1)
         except (ValueError, IndexError):
             raise damaged from None
-        return {name: table[name] for name in table.dtype.names}
+        return Columns((name, table[name]) for name in table.dtype.names)
 
     @property
     def frames(self) -> Trajectory:
@@ -233,7 +244,7 @@ class Result:
         path = self._file("analysis.h5")
         if not os.path.exists(path):
             raise SceneError(f"{path}: is not there, as the scene measures nothing; expected a scene with [analysis]")
-        columns = {}
+        columns = Columns()
 
         def take(path, item):
             if isinstance(item, h5py.Dataset):

@@ -303,6 +303,10 @@ def test_a_series_has_the_columns_of_its_file_with_one_row_too(tmp_path):
     assert list(series) == (tmp_path / "run" / "series.csv").read_text().split("\n")[0].split(",")
     assert any("big-ones" in name for name in series)
     assert series["t"].shape == (1,) and series["disks"][0] == 4.0
+    for name, expected in (("disk", "expected 'disks'"), ("zzz", "expected one of 't', "), (3, "no column 3; expected one of 't', ")):
+        with pytest.raises(KeyError, match=expected):
+            series[name]
+    assert series.get("disk") is None and "disk" not in series
 
 
 def test_map_says_which_scene_failed():
