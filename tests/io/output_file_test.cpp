@@ -44,56 +44,54 @@ TEST(OutputFile, IsGoneOnWithToTheByte) {
   EXPECT_NO_THROW(check_at_least(base, 0)) << "a folder, such as that of a movie's frames";
 }
 
+class ReservedRoom : public ::testing::Test {
+ protected:
+  const test::TestFolder folder_{::testing::UnitTest::GetInstance()->current_test_info()->name()};
+  const std::string path_ = folder_.path() / "trajectory.xyz";
+};
+
 // What is reserved and not written is no part of the file.
-TEST(OutputFile, RoomIsReservedBehindTheText) {
-  const test::TestFolder folder("carom_file_reserved");
-  const std::string path = folder.path() / "trajectory.xyz";
+TEST_F(ReservedRoom, IsNoPartOfTheFile) {
   {
-    OutputFile file(path);
+    OutputFile file(path_);
     file.write("12");
     file.reserve(4'000'000);
     file.write("345");
     file.flush();
-    EXPECT_EQ(fs::file_size(path), 5U);
+    EXPECT_EQ(fs::file_size(path_), 5U);
   }
-  EXPECT_EQ(test::text_of(path), "12345");
+  EXPECT_EQ(test::text_of(path_), "12345");
   OutputFile pipe("/dev/null");
   EXPECT_NO_THROW(pipe.reserve(4'000'000)) << "no room can be reserved there";
 }
 
-TEST(OutputFile, RoomIsReservedForTextToCome) {
-  const test::TestFolder folder("carom_file_of_text_to_come");
-  const std::string path = folder.path() / "trajectory.xyz";
+TEST_F(ReservedRoom, IsForTextToCome) {
   constexpr std::size_t some = 3'000'000;
-  OutputFile file(path);
+  OutputFile file(path_);
   file.reserve(some);
-  if (bytes_on_disk(path) < some) GTEST_SKIP() << "no room can be reserved on this file system";
+  if (bytes_on_disk(path_) < some) GTEST_SKIP() << "no room can be reserved on this file system";
   file.write(std::string(some, 'a'));
   file.reserve(some);
-  EXPECT_GE(bytes_on_disk(path), 2 * some);
+  EXPECT_GE(bytes_on_disk(path_), 2 * some);
 }
 
 // A run that goes on cuts off the room behind what it keeps, too, which is all that a kill may have left.
-TEST(OutputFile, RoomThatAKillLeftIsGivenBack) {
-  const test::TestFolder folder("carom_file_given_back");
-  const std::string path = folder.path() / "trajectory.xyz";
-  OutputFile killed(path);
+TEST_F(ReservedRoom, ThatAKillLeftIsGivenBack) {
+  OutputFile killed(path_);
   killed.write("12345");
   killed.reserve(4'000'000);
   killed.flush();
-  { OutputFile whole(path, 5); }
-  EXPECT_LT(bytes_on_disk(path), 1'000'000U);
+  { OutputFile whole(path_, 5); }
+  EXPECT_LT(bytes_on_disk(path_), 1'000'000U);
 }
 
 // Else the frames of a few disks would be as many pieces of the file.
-TEST(OutputFile, NoRoomIsReservedForALittleText) {
-  const test::TestFolder folder("carom_file_of_little_text");
-  const std::string path = folder.path() / "trajectory.xyz";
-  OutputFile file(path);
+TEST_F(ReservedRoom, IsNoneForALittleText) {
+  OutputFile file(path_);
   file.write("12345");
   file.reserve(500'000);
   file.flush();
-  EXPECT_LT(bytes_on_disk(path), 400'000U);
+  EXPECT_LT(bytes_on_disk(path_), 400'000U);
 }
 
 // Data that fit into the buffer are written when the file is closed.
